@@ -140,40 +140,46 @@ int flats(StockKind kind) {
   return 0;
 }
 
+std::vector<StockLine> stock_lines(const Stock& s, double z0_mm, double z1_mm) {
+  auto pieces = s.outline;
+  if (pieces.empty()) pieces = {{s.length_mm, s.outer_mm, s.outer_mm}};
+  std::vector<StockLine> lines;
+  double z = -s.left_allowance_mm;
+  for (const auto& piece : pieces) {
+    const double a = std::max(z0_mm, z), b = std::min(z1_mm, z + piece.length_mm);
+    const auto d_mm = [&](double at) {
+      return piece.left_mm +
+             (piece.right_mm - piece.left_mm) * (at - z) / piece.length_mm +
+             s.outline_limits.upper_mm;
+    };
+    if (b > a) lines.push_back({a, d_mm(a), b, d_mm(b)});
+    z += piece.length_mm;
+  }
+  return lines;
+}
+
 StockRange stock_between(const Stock& s, double z0_mm, double z1_mm) {
   if (s.outline.empty()) return {across_mm(s), s.outer_mm};
   const double end = s.length_mm - s.left_allowance_mm;
   const double from = std::min(std::max(z0_mm, -s.left_allowance_mm), end - kSame_mm),
                to = std::min(std::max(z1_mm, from + kSame_mm), end);
   StockRange range{INFINITY, 0};
-  double z = -s.left_allowance_mm;
-  for (const auto& piece : s.outline) {
-    const double a = std::max(from, z), b = std::min(to, z + piece.length_mm);
-    if (b - a > kSame_mm / 2)
-      for (const double at : {a, b}) {
-        const double d =
-            piece.left_mm + (piece.right_mm - piece.left_mm) * (at - z) / piece.length_mm;
-        range.least_mm = std::min(range.least_mm, d);
-        range.most_mm = std::max(range.most_mm, d);
-      }
-    z += piece.length_mm;
+  for (const auto& line : stock_lines(s, from, to)) {
+    if (line.z1_mm - line.z0_mm < kSame_mm / 2) continue;
+    range.least_mm = std::min({range.least_mm, line.left_mm, line.right_mm});
+    range.most_mm = std::max({range.most_mm, line.left_mm, line.right_mm});
   }
-  range.least_mm += s.outline_limits.lower_mm;
-  range.most_mm += s.outline_limits.upper_mm;
+  range.least_mm += s.outline_limits.lower_mm - s.outline_limits.upper_mm;
   return range;
 }
 
 std::vector<std::array<double, 2>> half_section(const Stock& s) {
   const double from = -s.left_allowance_mm, to = from + s.length_mm, in = s.inner_mm / 2;
   std::vector<std::array<double, 2>> corners;
-  double z = from;
-  for (const auto& piece : s.outline) {
-    const double more = s.outline_limits.upper_mm;
-    corners.push_back({(piece.left_mm + more) / 2, z});
-    z += piece.length_mm;
-    corners.push_back({(piece.right_mm + more) / 2, z});
+  for (const auto& line : stock_lines(s, -INFINITY, INFINITY)) {
+    corners.push_back({line.left_mm / 2, line.z0_mm});
+    corners.push_back({line.right_mm / 2, line.z1_mm});
   }
-  if (corners.empty()) corners = {{s.outer_mm / 2, from}, {s.outer_mm / 2, to}};
   corners.push_back({in, to});
   corners.push_back({in, from});
   return corners;

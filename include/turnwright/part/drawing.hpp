@@ -193,6 +193,13 @@ struct StockRange {
 /// its end.
 StockRange stock_between(const Stock& stock, double z0_mm, double z1_mm);
 
+/// A line of the outside of a stock, diameters at positions z0 < z1 of the part.
+struct StockLine {
+  double z0_mm = 0, left_mm = 0, z1_mm = 0, right_mm = 0;
+};
+/// Those between two positions, from left to right: of a casting or forging at the largest.
+std::vector<StockLine> stock_lines(const Stock& stock, double z0_mm, double z1_mm);
+
 /// Corners of the largest half section of a stock, radius and position on the axis of the
 /// part, once around.
 std::vector<std::array<double, 2>> half_section(const Stock& stock);
@@ -286,7 +293,6 @@ template <class Element>
 bool is_groove(const Element& e) {
   return e.cut && e.cut->kind == CutKind::groove;
 }
-/// Whether a bore is drilled instead of bored: to its size, or for a reamer or a tap.
 inline bool is_knurled(const OuterElement& e) {
   return e.cut && e.cut->kind == CutKind::knurl;
 }
@@ -294,6 +300,7 @@ inline bool is_knurled(const OuterElement& e) {
 inline double raised_mm(const OuterElement& e) {
   return is_knurled(e) ? (e.cut->drawn.left_mm - e.left_mm) / 2 : 0;
 }
+/// Whether a bore is drilled instead of bored: to its size, or for a reamer or a tap.
 inline bool is_hole(const InnerElement& e) { return e.cut && e.cut->drilled_mm > 0; }
 inline bool is_tapped(const InnerElement& e) {
   return is_hole(e) && e.cut->kind == CutKind::thread;

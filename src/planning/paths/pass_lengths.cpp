@@ -262,20 +262,12 @@ Outline outline_over(const PreparedPart& p, std::size_t setup, std::size_t eleme
   o.front_z = sign * ((sign > 0 ? from + e.length_mm : from) - free);
   o.drawn_h = e.left_mm / 2;
   o.most_h = part::stock_of(d, element).most_mm / 2;
-  double z = -d.stock.left_allowance_mm;
-  for (const auto& piece : d.stock.outline) {
-    const double a = std::max(z, from - part::kRunOut_mm),
-                 b = std::min(z + piece.length_mm, from + e.length_mm + part::kRunOut_mm);
-    const auto h = [&](double at) {
-      return (piece.left_mm +
-              (piece.right_mm - piece.left_mm) * (at - z) / piece.length_mm +
-              d.stock.outline_limits.upper_mm) /
-             2;
-    };
-    if (b > a)
-      o.lines.push_back(sign > 0 ? Outline::Line{b - free, h(b), a - free, h(a)}
-                                 : Outline::Line{free - a, h(a), free - b, h(b)});
-    z += piece.length_mm;
+  for (const auto& line : part::stock_lines(d.stock, from - part::kRunOut_mm,
+                                            from + e.length_mm + part::kRunOut_mm)) {
+    const double left = line.left_mm / 2, right = line.right_mm / 2;
+    o.lines.push_back(
+        sign > 0 ? Outline::Line{line.z1_mm - free, right, line.z0_mm - free, left}
+                 : Outline::Line{free - line.z0_mm, left, free - line.z1_mm, right});
   }
   if (sign > 0) std::ranges::reverse(o.lines);
   return o;

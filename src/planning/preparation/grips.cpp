@@ -58,12 +58,10 @@ double level_to_mm(const PreparedPart& p, std::size_t s) {
   const auto& e = p.drawing.outer;
   const bool left = holds_left(p, s);
   const double free = free_z_mm(p, s);
-  if (s == 0 && p.drawing.stock.outline.empty()) return free;
   if (s == 0) {
-    const double level = level_stock_mm(p, s);
-    return left
-               ? level - p.drawing.stock.left_allowance_mm
-               : part::length_mm(p.drawing) + part::right_allowance_mm(p.drawing) - level;
+    const double level = level_stock_mm(p, s), L = part::length_mm(p.drawing);
+    return left ? std::min(free, level - p.drawing.stock.left_allowance_mm)
+                : std::max(free, L + part::right_allowance_mm(p.drawing) - level);
   }
   const auto element = [&](std::size_t k) { return left ? k : e.size() - 1 - k; };
   double to = part::length_mm(p.drawing) - free;

@@ -122,11 +122,9 @@ Runs uncut_runs(const part::Drawing& d, std::size_t i) {
 }  // namespace
 
 Runs stock_runs(const part::Stock& stock) {
-  const auto corners = part::half_section(stock);
   Runs all;
-  for (std::size_t k = 0; k + 3 < corners.size(); ++k)
-    if (corners[k + 1][1] > corners[k][1])
-      all.push_back({corners[k][1], corners[k + 1][1], corners[k][0], corners[k + 1][0]});
+  for (const auto& line : part::stock_lines(stock, -INFINITY, INFINITY))
+    all.push_back({line.z0_mm, line.z1_mm, line.left_mm / 2, line.right_mm / 2});
   return all;
 }
 
