@@ -2,15 +2,13 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <boost/math/distributions/chi_squared.hpp>
-#include <boost/math/distributions/fisher_f.hpp>
-#include <boost/math/distributions/normal.hpp>
 #include <cmath>
 #include <map>
 #include <tuple>
 
 #include "censored_line.hpp"
 #include "life_design.hpp"
+#include "turnwright/base/distributions.hpp"
 #include "turnwright/base/dual.hpp"
 
 namespace turnwright::cutting {
@@ -22,9 +20,8 @@ using Eigen::VectorXd;
 
 // Quantile of z in (1) that the share `reached` of the edges exceeds.
 double z_reached(double reached, LifeDistribution distribution) {
-  return distribution == LifeDistribution::weibull
-             ? std::log(-std::log(reached))
-             : boost::math::quantile(boost::math::normal(), 1 - reached);
+  return distribution == LifeDistribution::weibull ? std::log(-std::log(reached))
+                                                   : normal_quantile(1 - reached);
 }
 
 // Life that the share `reached` of the edges exceeds at x.
@@ -90,17 +87,16 @@ void lack_of_fit(const Repeated& r, const Line& law, LifeScatter& out) {
   const double MS = std::max(0.0, (nu * sqr(law.s) - nu_e * pure) / (nu - nu_e));
   const double each = static_cast<double>(r.ended) / static_cast<double>(r.conditions);
   out.s_lack_of_fit = std::sqrt(std::max(0.0, MS - pure) / each);
-  const boost::math::fisher_f F(nu - nu_e, nu_e);
-  out.lack_of_fit_p = boost::math::cdf(boost::math::complement(F, MS / pure));
+  out.lack_of_fit_p = fisher_exceeds(MS / pure, nu - nu_e, nu_e);
 }
 
 void between_edges(const LifeRows& rows, const Line& law, double confidence,
                    LifeScatter& out) {
   const auto r = repeated(rows);
   if (!r) return;
-  const boost::math::chi_squared chi(r->line.degrees);
   const auto end = [&](double p) {
-    return r->line.s * std::sqrt(r->line.degrees / boost::math::quantile(chi, p));
+    return r->line.s *
+           std::sqrt(r->line.degrees / chi_squared_quantile(p, r->line.degrees));
   };
   out.s_between =
       Estimate{r->line.s, end((1 + confidence) / 2), end((1 - confidence) / 2)};

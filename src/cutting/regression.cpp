@@ -2,11 +2,11 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <numeric>
 #include <optional>
 
+#include "turnwright/base/distributions.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/base/least_squares.hpp"
 
@@ -18,10 +18,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int kSpare = 3;  // measurements beyond the unknowns that are always kept
-
-double quantile(double p, double degrees) {
-  return boost::math::quantile(boost::math::students_t(degrees), p);
-}
 
 struct Regression {
   VectorXd c;
@@ -64,7 +60,8 @@ std::optional<std::size_t> outlier(const Regression& r, double p) {
   }
   const auto n = static_cast<double>(r.residual.size());
   if (r.s2 < 1e-24 || !(p > 0)) return std::nullopt;  // nothing but rounding
-  return largest > quantile(1 - p / (2 * n), r.degrees - 1) ? worst : std::nullopt;
+  return largest > student_quantile(1 - p / (2 * n), r.degrees - 1) ? worst
+                                                                    : std::nullopt;
 }
 
 }  // namespace
@@ -94,7 +91,7 @@ double prediction_s(double s, std::size_t n) {
 }
 
 double student(double confidence, double degrees) {
-  return quantile((1 + confidence) / 2, degrees);
+  return student_quantile((1 + confidence) / 2, degrees);
 }
 
 double spread(const MatrixXd& before, const VectorXd& column) {

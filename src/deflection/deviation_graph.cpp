@@ -2,8 +2,6 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <boost/math/distributions/fisher_f.hpp>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -11,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "turnwright/base/distributions.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/base/least_squares.hpp"
 
@@ -190,9 +189,8 @@ bool significant(const Graph& g, int degree, const Places& fewer, const Places& 
   const auto f = static_cast<double>(free_points(g, degree, more));
   const double R0 = squares(g, degree, fewer), R1 = squares(g, degree, more);
   const double one = places_for_one(g), N = q == 1 ? one : one * (one - 1) / 2;
-  const boost::math::fisher_f distribution(q, f);
   const double F = std::max(0.0, (R0 - R1) / q / (R1 / f));
-  return N * cdf(complement(distribution, F)) < kStepLevel;  // Eq. (2)
+  return N * fisher_exceeds(F, q, f) < kStepLevel;  // Eq. (2)
 }
 
 Places steps(const Graph& g, int degree, std::size_t most) {
@@ -271,12 +269,12 @@ DeviationGraph described(const Graph& g, int degree, const Places& places) {
     out.u_coefficients.push_back(Lc.row(j).norm());
   }
   VectorXd straightened = g.e;
-  const boost::math::students_t t(static_cast<double>(out.degrees_of_freedom));
+  const auto degrees = static_cast<double>(out.degrees_of_freedom);
   for (std::size_t k = 0; k < places.size(); ++k) {
     const Index place = places[k], j = powers + static_cast<Index>(k);
     straightened -= a[j] * X.col(j);
     const double u = L.row(j).norm();
-    const double p = u > 0 ? 2 * cdf(complement(t, std::abs(a[j]) / u)) : 0;
+    const double p = u > 0 ? 2 * student_exceeds(std::abs(a[j]) / u, degrees) : 0;
     out.steps.push_back({.after_mm = g.z[place],
                          .before_mm = g.z[place + 1],
                          .height_mm = a[j],

@@ -1,10 +1,9 @@
 #include "turnwright/learning/capability.hpp"
 
 #include <algorithm>
-#include <boost/math/distributions/chi_squared.hpp>
-#include <boost/math/distributions/normal.hpp>
 #include <cmath>
 
+#include "turnwright/base/distributions.hpp"
 #include "turnwright/base/dual.hpp"
 
 namespace turnwright::learning {
@@ -17,9 +16,8 @@ struct Scatter {
 Indices indices(const Scatter& of, const Trend& trend, const Limits& limits,
                 double confidence) {
   const double nu = std::min(of.degrees, 1e9), tail = (1 - confidence) / 2;
-  const boost::math::chi_squared chi2(nu);
-  const double low = std::sqrt(quantile(chi2, tail) / nu),
-               high = std::sqrt(quantile(complement(chi2, tail)) / nu);
+  const double low = std::sqrt(chi_squared_quantile(tail, nu) / nu),
+               high = std::sqrt(chi_squared_upper_quantile(tail, nu) / nu);
   const double relative = 1 / std::sqrt(2 * nu), s = of.s_mm;
   Indices out;
   out.s_mm = {s, s * relative, s / high, s / low};  // (3)
@@ -31,7 +29,7 @@ Indices indices(const Scatter& of, const Trend& trend, const Limits& limits,
   const double room = limits.lower_mm ? std::min(up, m - *limits.lower_mm) : up;
   const double pk = room / (3 * s);  // (2)
   const double u = std::hypot(trend.mean_mm.u / (3 * s), pk / std::sqrt(2 * nu));
-  const double z = quantile(complement(boost::math::normal(), tail));
+  const double z = -normal_quantile(tail);
   out.pk = {pk, u, pk - z * u, pk + z * u};  // (5)
   return out;
 }

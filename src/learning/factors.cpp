@@ -1,11 +1,10 @@
 #include "turnwright/learning/factors.hpp"
 
 #include <Eigen/Dense>
-#include <boost/math/distributions/chi_squared.hpp>
-#include <boost/math/distributions/normal.hpp>
 #include <cmath>
 #include <stdexcept>
 
+#include "turnwright/base/distributions.hpp"
 #include "turnwright/base/dual.hpp"
 
 namespace turnwright::learning {
@@ -40,7 +39,7 @@ std::vector<Posterior> posterior(std::span<const Prior> prior,
   }
   const Eigen::MatrixXd C = precision.ldlt().solve(Eigen::MatrixXd::Identity(n, n));
   const Eigen::VectorXd by = C * shift;
-  const double z = quantile(boost::math::normal(), (1 + confidence) / 2);
+  const double z = normal_quantile((1 + confidence) / 2);
   std::vector<Posterior> all;
   for (Eigen::Index i = 0; i < n; ++i) {
     const double less = std::sqrt(C(i, i)), u = sd[i] * less;
@@ -67,11 +66,11 @@ Posterior posterior(const ScatterPrior& prior, double sum_of_squares, double deg
                     double confidence) {
   const double nu = prior.degrees + degrees;
   const double s = std::sqrt((prior.degrees * sqr(prior.s) + sum_of_squares) / nu);
-  const boost::math::chi_squared chi2(nu);
   const double tail = (1 - confidence) / 2;
-  return {{s, s / std::sqrt(2 * nu), s * std::sqrt(nu / quantile(complement(chi2, tail))),
-           s * std::sqrt(nu / quantile(chi2, tail))},
-          sqr(kIdentified) * nu > prior.degrees};
+  return {
+      {s, s / std::sqrt(2 * nu), s * std::sqrt(nu / chi_squared_upper_quantile(tail, nu)),
+       s * std::sqrt(nu / chi_squared_quantile(tail, nu))},
+      sqr(kIdentified) * nu > prior.degrees};
 }
 
 }  // namespace turnwright::learning

@@ -1,12 +1,12 @@
 #include "turnwright/learning/outliers.hpp"
 
 #include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <numeric>
 #include <optional>
 
 #include "median.hpp"
+#include "turnwright/base/distributions.hpp"
 #include "within.hpp"
 
 namespace turnwright::learning {
@@ -48,9 +48,8 @@ std::optional<Extreme> most_extreme(const Series& series, double p) {
     const double t = std::abs(r) * std::sqrt((w.degrees - 1) / rest);
     if (t > e.t) e = {static_cast<std::size_t>(i), t, 0};
   }
-  const boost::math::students_t student(w.degrees - 1);
   e.critical =
-      quantile(complement(student, p / (2 * static_cast<double>(series.size()))));
+      student_upper_quantile(p / (2 * static_cast<double>(series.size())), w.degrees - 1);
   return e;
 }
 

@@ -2,10 +2,9 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <boost/math/distributions/fisher_f.hpp>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
+#include "turnwright/base/distributions.hpp"
 #include "turnwright/base/dual.hpp"
 #include "within.hpp"
 
@@ -58,9 +57,7 @@ std::optional<Variances> variances(const Table& t, const Within& w,
   const double Q = (t.y - x * beta).squaredNorm() - w.rss;
   v.between =
       std::max((Q - r * v.within) / tr_K, -kLeastBetween * v.within / t.n.maxCoeff());
-  if (v.within > 0)
-    v.p = cdf(
-        complement(boost::math::fisher_f(r, w.degrees), std::max(0.0, Q / r / v.within)));
+  if (v.within > 0) v.p = fisher_exceeds(std::max(0.0, Q / r / v.within), r, w.degrees);
   const double of_within = 2 * sqr(v.within) / w.degrees;
   const double of_Q =
       2 * (r * sqr(v.within) + 2 * v.within * v.between * tr_K + sqr(v.between) * tr_K2);
@@ -152,8 +149,8 @@ std::vector<Jump> jumps(const Series& series, const Table& t, const Within& w,
 }  // namespace
 
 Estimate student_interval(double value, double u, double degrees, double confidence) {
-  const boost::math::students_t t(std::clamp(degrees, 1.0, 1e9));
-  const double half = u * quantile(t, (1 + confidence) / 2);
+  const double half =
+      u * student_quantile((1 + confidence) / 2, std::clamp(degrees, 1.0, 1e9));
   return {value, u, value - half, value + half};
 }
 

@@ -6,9 +6,9 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <regex>
 #include <stdexcept>
 
+#include "turnwright/base/pattern.hpp"
 #include "turnwright/base/units.hpp"
 
 namespace turnwright::part {
@@ -97,14 +97,14 @@ Shaped thread(double d_mm, double pitch_mm, Where where) {
 }
 
 std::optional<Knurl> knurl(const std::string& text) {
-  static const std::regex kForm(
+  static const Pattern kForm(
       R"(\s*(?:DIN\s*82)?[\s-]*(R[A-Z]{2})\s*(\d+(?:[.,]\d+)?)\s*)");
-  std::smatch m;
-  if (!std::regex_match(text, m, kForm)) return std::nullopt;
-  auto digits = m[2].str();
+  const auto m = kForm.match(text);
+  if (!m) return std::nullopt;
+  auto digits = (*m)[2];
   std::ranges::replace(digits, ',', '.');
   const double pitch = std::stod(digits);
-  const auto is = [&](const KnurlName& k) { return k.name == m[1].str(); };
+  const auto is = [&](const KnurlName& k) { return k.name == (*m)[1]; };
   const auto type = std::ranges::find_if(kKnurls, is);
   if (type == kKnurls.end() || !std::ranges::count(kKnurlPitches_mm, pitch))
     return std::nullopt;

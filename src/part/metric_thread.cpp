@@ -1,7 +1,8 @@
 #include "turnwright/part/metric_thread.hpp"
 
 #include <charconv>
-#include <regex>
+
+#include "turnwright/base/pattern.hpp"
 
 namespace turnwright::part {
 namespace {
@@ -16,9 +17,9 @@ constexpr Coarse kCoarse[] = {{3, 0.5},  {4, 0.7},   {5, 0.8},  {6, 1},    {8, 1
                               {48, 5},   {52, 5},    {56, 5.5}, {60, 5.5}, {64, 6}};
 
 // A number found by the pattern below, with a point in any locale.
-double number(const std::csub_match& digits) {
+double number(const std::string& digits) {
   double x = 0;
-  std::from_chars(digits.first, digits.second, x);
+  std::from_chars(digits.data(), digits.data() + digits.size(), x);
   return x;
 }
 
@@ -31,13 +32,12 @@ std::optional<double> coarse_pitch_mm(double d_mm) {
 }
 
 std::optional<MetricThread> metric_thread(std::string_view designation) {
-  static const std::regex kForm("M([0-9]+(?:\\.[0-9]+)?)(?:x([0-9]+(?:\\.[0-9]+)?))?");
-  std::cmatch m;
-  if (!std::regex_match(designation.data(), designation.data() + designation.size(), m,
-                        kForm))
-    return std::nullopt;
-  const double d = number(m[1]);
-  return MetricThread{d, m[2].matched ? std::optional(number(m[2])) : coarse_pitch_mm(d)};
+  static const Pattern kForm("M([0-9]+(?:\\.[0-9]+)?)(?:x([0-9]+(?:\\.[0-9]+)?))?");
+  const auto m = kForm.match(designation);
+  if (!m) return std::nullopt;
+  const std::string &diameter = (*m)[1], &pitch = (*m)[2];
+  const double d = number(diameter);
+  return MetricThread{d, pitch.empty() ? coarse_pitch_mm(d) : number(pitch)};
 }
 
 }  // namespace turnwright::part

@@ -1,10 +1,11 @@
 #include "turnwright/volumetric/agreement.hpp"
 
 #include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
+
+#include "turnwright/base/distributions.hpp"
 
 namespace turnwright::volumetric {
 namespace {
@@ -14,10 +15,7 @@ double mean(const std::vector<double>& v) {
 }
 
 /// Two-sided probability of a value of at least |t|.
-double two_sided(double t, double dof) {
-  return 2 * boost::math::cdf(boost::math::complement(
-                 boost::math::students_t_distribution<>(dof), std::abs(t)));
-}
+double two_sided(double t, double dof) { return 2 * student_exceeds(std::abs(t), dof); }
 
 std::optional<Correlation> correlation(const Runs& a, const Runs& b) {
   std::vector<double> x, y;

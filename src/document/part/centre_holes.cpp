@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
-#include <regex>
 #include <string>
 
 #include "part_sections.hpp"
+#include "turnwright/base/pattern.hpp"
 
 namespace turnwright::document {
 namespace {
@@ -19,12 +19,11 @@ double number(std::string digits) {
 // "ISO 6411-A4/8.5", also "DIN 332-A 4x8,5".
 std::optional<CentreHole> read_designation(const Reader& r) {
   const auto text = r.as_text(40);
-  static const std::regex kForm(
+  static const Pattern kForm(
       R"(\s*(?:(?:ISO\s*6411|DIN\s*332)\s*[-\s]\s*)?([A-Z])\s*(\d{1,4}(?:[.,]\d{1,4})?)\s*(?:/|[xX]|×)\s*(\d{1,4}(?:[.,]\d{1,4})?)\s*)");
-  std::smatch m;
   std::optional<CentreHole> found;
-  if (std::regex_match(text, m, kForm))
-    found = part::centre_hole(m[1].str()[0], number(m[2]), number(m[3]));
+  if (const auto m = kForm.match(text))
+    found = part::centre_hole((*m)[1][0], number((*m)[2]), number((*m)[3]));
   if (!found && !text.empty())
     r.problem(
         "a centre hole of ISO 6411's form A, B or R with its pilot's and its largest "

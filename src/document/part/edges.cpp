@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
-#include <regex>
 
 #include "document/json/fields.hpp"
 #include "document/json/reference.hpp"
 #include "part_sections.hpp"
+#include "turnwright/base/pattern.hpp"
 #include "turnwright/base/units.hpp"
 
 namespace turnwright::document {
@@ -254,11 +254,10 @@ void read_fillet(Reader& r, const Step& step, Element& e) {
 // "DIN 76-A" or "DIN 76-B": the undercut of that form behind an outer thread.
 std::optional<part::Undercut> read_thread_undercut(const Reader& r, double pitch_mm) {
   const auto text = r.as_text(40);
-  static const std::regex kForm(R"(\s*(?:DIN\s*76(?:-1)?)[\s-]*([AB])\s*)");
-  std::smatch m;
+  static const Pattern kForm(R"(\s*(?:DIN\s*76(?:-1)?)[\s-]*([AB])\s*)");
   std::optional<part::Undercut> found;
-  if (std::regex_match(text, m, kForm)) {
-    found = part::thread_undercut(m[1].str()[0], pitch_mm);
+  if (const auto m = kForm.match(text)) {
+    found = part::thread_undercut((*m)[1][0], pitch_mm);
     if (!found)
       r.problem("a thread with a pitch of DIN 76's table, 0.5 to 6 mm, not " +
                     number_text(pitch_mm) + " mm",
@@ -273,16 +272,15 @@ std::optional<part::Undercut> read_thread_undercut(const Reader& r, double pitch
 // "E0.8x0.3", "H0.8x0.3", also "DIN 509-E0,8x0,3": the undercut of that radius and depth.
 std::optional<part::Undercut> read_undercut(const Reader& r) {
   const auto text = r.as_text(40);
-  static const std::regex kForm(
+  static const Pattern kForm(
       R"(\s*(?:DIN\s*509)?[\s-]*([A-Z])\s*(\d+(?:[.,]\d+)?)\s*(?:[xX]|×)\s*(\d+(?:[.,]\d+)?)\s*)");
-  std::smatch m;
   const auto number = [](std::string digits) {
     std::replace(digits.begin(), digits.end(), ',', '.');
     return std::stod(digits);
   };
   std::optional<part::Undercut> found;
-  if (std::regex_match(text, m, kForm))
-    found = part::undercut(m[1].str()[0], number(m[2]), number(m[3]));
+  if (const auto m = kForm.match(text))
+    found = part::undercut((*m)[1][0], number((*m)[2]), number((*m)[3]));
   if (!found && !text.empty())
     r.problem(
         "an undercut of DIN 509 with a radius and a depth of its table: of form E or F "

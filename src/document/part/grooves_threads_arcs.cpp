@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <regex>
 #include <stdexcept>
 
 #include "document/json/fields.hpp"
 #include "part_sections.hpp"
+#include "turnwright/base/pattern.hpp"
 #include "turnwright/part/inch_thread.hpp"
 #include "turnwright/part/metric_thread.hpp"
 #include "turnwright/tolerance/iso286.hpp"
@@ -70,9 +70,9 @@ Size read_thread_size(Draft& draft, Reader& r) {
 }
 
 void check_thread_class(Reader& r) {
-  static const std::regex kClass("[3-9][a-hA-H]([3-9][a-hA-H])?|[123][AB]");
+  static const Pattern kClass("[3-9][a-hA-H]([3-9][a-hA-H])?|[123][AB]");
   const auto fit = r.optional_text("fit", 8);
-  if (fit && !fit->empty() && !std::regex_match(*fit, kClass))
+  if (fit && !fit->empty() && !kClass.match(*fit))
     r.problem_at("fit", "a thread's tolerance class like \"6g\", \"6H\" or \"2A\"",
                  "choice");
 }

@@ -1,11 +1,11 @@
 #include "calibrate_material_groups.hpp"
 
 #include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <utility>
 
 #include "document/catalogue/catalogue_readers.hpp"
+#include "turnwright/base/distributions.hpp"
 
 namespace turnwright::document::material_calibration {
 namespace {
@@ -108,8 +108,8 @@ json taylor(const Request& q, const Lives& t) {
 /// One standard deviation of hmin, by its interval.
 double chip_uncertainty_pct(const cutting::RoughnessFit& fit, double confidence) {
   const Estimate& h = *fit.hmin_mm;
-  const boost::math::students_t t(fit.evidence.degrees_of_freedom);
-  const double halves = 2 * boost::math::quantile(t, (1 + confidence) / 2);
+  const double halves =
+      2 * student_quantile((1 + confidence) / 2, fit.evidence.degrees_of_freedom);
   return h.value > 0 ? percent((h.upper - h.lower) / halves / h.value) : 100;
 }
 

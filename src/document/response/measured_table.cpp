@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <limits>
 #include <map>
-#include <regex>
 #include <utility>
 
 #include "document/json/csv.hpp"
 #include "document/json/pointer.hpp"
 #include "document/json/text_lines.hpp"
+#include "turnwright/base/pattern.hpp"
 
 namespace turnwright::document {
 namespace {
@@ -64,18 +64,17 @@ class TableRows {
   /// What stands in brackets at the end is a unit, known or not, and so is what has a slash;
   /// in round brackets there may also be the name of a channel, "(H1)".
   Heading heading_of(const std::string& name) const {
-    static const std::regex kUnit(
+    static const Pattern kUnit(
         R"((.*\S)\s*(?:\[([^\[\]]*)\]|\(([^()]*)\)|\s([^\s()\[\]]+/[^\s()\[\]]+))\s*)");
-    static const std::regex kChannel(R"([A-Za-z]{0,8}[ _-]?\d*)");
+    static const Pattern kChannel(R"([A-Za-z]{0,8}[ _-]?\d*)");
     const Heading known = heading(name, form_.is_unit);
-    std::smatch m;
-    if (!known.unit.empty() || name.size() > kLongestName ||
-        !std::regex_match(name, m, kUnit))
-      return known;
-    const std::string unit = m[2].str() + m[3].str() + m[4].str();
-    const bool channel = m[3].matched && std::regex_match(unit, kChannel) &&
-                         unit.find_first_of("0123456789") != unit.npos;
-    return channel ? known : Heading{m[1], unit};
+    if (!known.unit.empty() || name.size() > kLongestName) return known;
+    const auto m = kUnit.match(name);
+    if (!m) return known;
+    const std::string &square = (*m)[2], &round = (*m)[3], &ratio = (*m)[4];
+    const bool channel =
+        kChannel.match(round) && round.find_first_of("0123456789") != round.npos;
+    return channel ? known : Heading{(*m)[1], square + round + ratio};
   }
 
   std::optional<std::string> key_of(const std::string& name,

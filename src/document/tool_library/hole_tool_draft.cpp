@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <regex>
 #include <stdexcept>
 
 #include "tool_estimates.hpp"
+#include "turnwright/base/pattern.hpp"
 #include "turnwright/part/inch_thread.hpp"
 #include "turnwright/part/metric_thread.hpp"
 
@@ -34,22 +34,20 @@ std::string metric(double d_mm, double pitch_mm) {
 // The threads that stand in a text.
 std::vector<std::string> threads_in(const std::string& text) {
   constexpr std::size_t kLongest = 200;
-  static const std::regex kMetric(
+  static const Pattern kMetric(
       R"((?:^|[^A-Za-z0-9])M(\d{1,3}(?:[.,]\d{1,3})?)(?:\s*[xX]\s*(\d{1,2}(?:[.,]\d{1,3})?))?)");
-  static const std::regex kInch(
+  static const Pattern kInch(
       R"((?:^|[^\d.#/-])((?:#\d{1,2}|(?:\d{1,2}-)?\d{1,2}/\d{1,2})-\d{1,2}(?: ?UN[CF]?)?)(?:[^\d]|$))");
   const std::string searched = shortened(text, kLongest);
   std::vector<std::string> out;
-  for (std::sregex_iterator m(searched.begin(), searched.end(), kMetric), end; m != end;
-       ++m) {
-    const double d = quantity((*m)[1].str())->value;
-    const auto pitch = (*m)[2].matched ? quantity((*m)[2].str())->value
-                                       : part::coarse_pitch_mm(d).value_or(0);
+  for (const auto& m : kMetric.all_in(searched)) {
+    const double d = quantity(m[1])->value;
+    const auto pitch =
+        m[2].empty() ? part::coarse_pitch_mm(d).value_or(0) : quantity(m[2])->value;
     if (pitch > 0) out.push_back(metric(d, pitch));
   }
-  for (std::sregex_iterator m(searched.begin(), searched.end(), kInch), end; m != end;
-       ++m)
-    if (part::inch_thread((*m)[1].str())) out.push_back((*m)[1].str());
+  for (const auto& m : kInch.all_in(searched))
+    if (part::inch_thread(m[1])) out.push_back(m[1]);
   return out;
 }
 
@@ -57,12 +55,12 @@ std::vector<std::string> threads_in(const std::string& text) {
 // if it may.
 std::string other_thread(const LibraryTool& tool) {
   constexpr std::size_t kLongest = 200;
-  constexpr auto kAnyCase = std::regex::ECMAScript | std::regex::icase;
-  static const std::regex kLeft(R"(\b(left|reverse|links\w*)\b|\bLH\b)", kAnyCase);
-  static const std::regex kForming(R"(\b(roll|cold|thread)? ?form(ing)?\b|\bfluteless\b)",
-                                   kAnyCase);
-  static const std::regex kInsert(R"(\b(EG|STI|helicoil)\b)", kAnyCase);
-  static const std::regex kOther(
+  constexpr auto kAnyCase = Pattern::Case::any;
+  static const Pattern kLeft(R"(\b(left|reverse|links\w*)\b|\bLH\b)", kAnyCase);
+  static const Pattern kForming(R"(\b(roll|cold|thread)? ?form(ing)?\b|\bfluteless\b)",
+                                kAnyCase);
+  static const Pattern kInsert(R"(\b(EG|STI|helicoil)\b)", kAnyCase);
+  static const Pattern kOther(
       R"(\b(NPTF?|NPSM?|BSPT?|BSPP|BSW|BSF|BA|Rc|Rp|Rd|Tr|PG|Acme)\b ?\d*|\bG ?\d{1,2}(/\d)?)",
       kAnyCase);
   if (tool.hand == 'L') return "A left-hand tap: part documents have right-hand threads.";
@@ -70,13 +68,13 @@ std::string other_thread(const LibraryTool& tool) {
   texts.insert(texts.end(), {tool.thread, tool.name});
   for (const auto& text : texts) {
     const std::string searched = shortened(text, kLongest);
-    if (std::regex_search(searched, kLeft))
+    if (kLeft.find_in(searched))
       return "A left-hand tap: part documents have right-hand threads.";
-    if (std::regex_search(searched, kForming))
+    if (kForming.find_in(searched))
       return "A forming tap: its hole is wider than that of a cutting one.";
-    if (std::regex_search(searched, kInsert))
+    if (kInsert.find_in(searched))
       return "A tap for wire inserts: its thread is wider than it is called.";
-    if (std::regex_search(searched, kOther))
+    if (kOther.find_in(searched))
       return "A tap of another thread than metric or unified ones.";
   }
   return "";
@@ -232,7 +230,7 @@ std::string hole_use(std::string_view text) {
     return static_cast<char>(std::tolower(c));
   });
   const auto has = [&](const char* word) {
-    return std::regex_search(lower, std::regex(word));
+    return Pattern(word).find_in(lower).has_value();
   };
   if (has("\\b(drill|collet|holder|boring|taper(ed)?|adjustable)\\b")) return "";
   if (has("counter ?sink")) return "countersinking";

@@ -2,10 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <regex>
-
 #include "dxf_text.hpp"
 #include "exchange/text/notation_words.hpp"
+#include "turnwright/base/pattern.hpp"
 
 namespace turnwright::exchange::dxf {
 namespace {
@@ -175,14 +174,14 @@ class Dimensions {
   }
 
   void add(const Note& n) {
-    static const std::regex kGeneral("ISO *2768 *- *([fmcv][HKL]?|[HKL])");
+    static const Pattern kGeneral("ISO *2768 *- *([fmcv][HKL]?|[HKL])");
     constexpr std::size_t kLongest = 1000;  // of a text that is searched and listed
     const std::string shown =
         std::string(notated::beginning(shown_text(n.text), kLongest));
-    std::smatch m;
-    if (out_.general.empty() && shown.find("2768") != std::string::npos &&
-        std::regex_search(shown, m, kGeneral))
-      out_.general = "ISO 2768-" + m[1].str();
+    const auto m =
+        shown.find("2768") != std::string::npos ? kGeneral.find_in(shown) : std::nullopt;
+    if (m && out_.general.empty())
+      out_.general = "ISO 2768-" + (*m)[1];
     else
       list(n.name, fmt::format("The text \"{}\" is left to the reader.", shown));
   }

@@ -246,7 +246,8 @@ void add_knurl(Site& s, const CutElement& e) {
   const auto count = passes_of(s, a, 1, [](double) { return 1; });
   if (!count) return;
   if (*count > 1) return refuse(s, a, "it is pressed in one pass");
-  const auto [from, to] = *way_of(f.size_mm);
+  const KnurlWay along_z = *way_of(f.size_mm);
+  const double from = along_z.from_mm, to = along_z.to_mm;
   if (unfaced(s, a, e, from + f.size_mm)) return;
   const double D = e.cut.drawn.left_mm, n_cap = n_cap_rpm(s);
   const double depth = e.cut.depth_mm, along = from - to;

@@ -1,14 +1,11 @@
 #include "uncertain_limits.hpp"
 
-#include <boost/math/distributions/normal.hpp>
 #include <cmath>
+
+#include "turnwright/base/distributions.hpp"
 
 namespace turnwright::planning {
 namespace {
-
-double normal_quantile(double p) {
-  return boost::math::quantile(boost::math::normal(), p);
-}
 
 double limit_spread(const PlanRequest& p) { return p.damping_uncertainty_pct / 100; }
 
@@ -27,7 +24,7 @@ double chatter_factor(const PlanRequest& p) {
 double stable_probability(const PlanRequest& p, double share) {
   if (!(limit_spread(p) > 0) || !(share > 0)) return 1;
   const double z = standard_deviations(p) - std::log(share) / limit_spread(p);
-  return boost::math::cdf(boost::math::normal(), z);
+  return normal_probability(z);
 }
 
 double left_by_chatter(const PlanRequest& p) { return limit_spread(p) > 0 ? 0.5 : 1; }

@@ -9,11 +9,11 @@
 #include <cstring>
 #include <fstream>
 #include <limits>
-#include <regex>
 #include <vector>
 
 #include "document/json/file.hpp"
 #include "document/json/reader.hpp"
+#include "turnwright/base/pattern.hpp"
 
 namespace turnwright::service {
 namespace {
@@ -107,10 +107,10 @@ BatchSummary read_summary(const fs::path& file) {
 
 // Incomplete files have a name with a dot and a number (NewFile).
 bool is_of_work(const std::string& name) {
-  static const std::regex kNames(
+  static const Pattern kNames(
       R"(\d+\.jsonl|slurm\.sh|slurm-\d+\.log|\.(\d+\.jsonl|slurm\.sh|manifest\.json|)"
       R"(results\.jsonl|summary\.json)\.[0-9a-f]{16})");
-  return std::regex_match(name, kNames);
+  return kNames.match(name).has_value();
 }
 
 /// Removes the batch's own files from its folder `work`, and the folder if it is then
