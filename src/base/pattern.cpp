@@ -19,7 +19,7 @@ struct Pattern::Compiled {
 };
 
 Pattern::Pattern(const std::string& expression, Case letters)
-    : compiled_(std::make_shared<Compiled>(std::regex(expression, syntax(letters)))) {}
+    : compiled_(new Compiled{std::regex(expression, syntax(letters))}) {}
 
 std::optional<Pattern::Groups> Pattern::match(std::string_view text) const {
   std::cmatch m;
