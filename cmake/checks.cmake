@@ -126,6 +126,9 @@ add_test(NAME guide.commands COMMAND bash
 add_test(NAME learn.commands COMMAND bash
   ${PROJECT_SOURCE_DIR}/tests/app/guide.bash $<TARGET_FILE:turnwright>
   ${PROJECT_SOURCE_DIR} learn 4 20)
+add_test(NAME readme.commands COMMAND bash
+  ${PROJECT_SOURCE_DIR}/tests/app/guide.bash $<TARGET_FILE:turnwright>
+  ${PROJECT_SOURCE_DIR} README 2 20)
 
 add_test(NAME package.deb COMMAND ${CMAKE_COMMAND}
   -D BUILD_DIR=${PROJECT_BINARY_DIR} -D WORK_DIR=${PROJECT_BINARY_DIR}/package-test

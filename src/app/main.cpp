@@ -35,6 +35,7 @@
 #include "service/listing.hpp"
 #include "service/output.hpp"
 #include "service/requests.hpp"
+#include "terminal.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/document/nc.hpp"
 
@@ -339,7 +340,7 @@ Exit run_request(const service::Request& row, const Arguments& arguments) {
   if (arguments.card) service::write_file(*arguments.card, process_card(result));
   const bool json_asked = arguments.json || (arguments.result_file && !to_file);
   if (row.text && !json_asked)
-    service::print(row.text(result));
+    print_report(row.text(result));
   else if (json_asked || !to_file)
     service::print(json);
   return exit_code(drawn, arguments.programs.has_value());

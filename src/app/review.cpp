@@ -10,6 +10,7 @@
 #include "options.hpp"
 #include "service/output.hpp"
 #include "service/requests.hpp"
+#include "terminal.hpp"
 
 namespace turnwright::app {
 namespace {
@@ -122,7 +123,10 @@ void run(const ReviewArguments& arguments, const std::optional<fs::path>& data) 
   const bool to_file = arguments.output && *arguments.output != "-";
   if (to_file) service::write_file(*arguments.output, text);
   const bool json_asked = arguments.json || (arguments.output && !to_file);
-  service::print(json_asked ? text : row.text(result));
+  if (json_asked)
+    service::print(text);
+  else
+    print_report(row.text(result));
 }
 
 }  // namespace

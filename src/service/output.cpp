@@ -147,11 +147,12 @@ void make_folder(const fs::path& folder) {
   if (error) fail(folder, error.value());
 }
 
-void print(const std::string& text) {
+void print(const std::string& text, std::string (*style)(std::string_view)) {
   std::string shown;
   for (std::string_view rest = text; !rest.empty();) {
     const auto end = std::min(rest.find('\n'), rest.size());
-    shown += visible(rest.substr(0, end));
+    const auto line = visible(rest.substr(0, end));
+    shown += style ? style(line) : line;
     if (end < rest.size()) shown += '\n';
     rest.remove_prefix(std::min(end + 1, rest.size()));
   }

@@ -64,6 +64,7 @@ void make_folder(const std::filesystem::path& folder);
 /// Writes to standard output and checks that all was written.  Control characters in the
 /// lines are made visible(), so that names cannot command a terminal; JSON keeps its
 /// meaning.
-void print(const std::string& text);
+/// @param style  gives each line its colours; absent: none.
+void print(const std::string& text, std::string (*style)(std::string_view) = nullptr);
 
 }  // namespace turnwright::service

@@ -1,7 +1,7 @@
-# Runs every command of docs/PAGE.md in its order, and compares answers and pictures with
-# what the page shows of them.
+# Runs every command of docs/PAGE.md, or of PAGE.md, in its order, and compares answers and
+# pictures with what the page shows of them.
 # Usage: guide.bash TURNWRIGHT SOURCE_FOLDER PAGE LEAST_COMMANDS LEAST_LINES [--update]
-# PAGE is guide or learn; --update puts the pictures there instead.
+# PAGE is guide, learn or README; --update puts the pictures there instead.
 set -euo pipefail
 turnwright=$1 source=$2 page=$3 least_commands=$4 least_lines=$5 update=${6:-}
 folder=$(mktemp -d)
@@ -24,16 +24,21 @@ run() { # COMMAND LINE
   fi
 }
 
+page_file=$source/docs/$page.md
+[[ -e $page_file ]] || page_file=$source/$page.md
+answered=  # the lines are an answer: their block began with a command
 while IFS= read -r line; do
-  [[ $line == '    '* ]] || continue
+  [[ $line ]] || continue
+  [[ $line == '    '* ]] || { answered=; continue; }
   line=${line:4}
   if [[ $line == '$ turnwright '* ]]; then
+    answered=1
     run "${line#$ }"
-  else
+  elif [[ $answered ]]; then
     lines=$((lines + 1))
     grep -qxF -- "$line" answer || { echo "not in the answer: $line"; failed=1; }
   fi
-done < "$source/docs/$page.md"
+done < "$page_file"
 
 pictures=$source/docs/pictures/$page
 while read -r shown made; do

@@ -85,6 +85,7 @@ struct Lathe {
   double jaws_min = kJaws_min;  ///< stop to change the force of the jaws [min]
   double setup_min = 0;         ///< preparing the machine, per setup and batch [min]
   double cost_per_min = 0;      ///< used when the request gives no rate
+  std::string currency = {};    ///< of that rate and of edges, as "EUR"; empty: not named
   double swing_mm = 0, between_centres_mm = 0;
   int stations = kAnyStations;  ///< of the turret, for the tools of a setup
   Chuck chuck;

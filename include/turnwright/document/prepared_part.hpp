@@ -1,4 +1,7 @@
 #pragma once
+#include <set>
+#include <string>
+
 #include "turnwright/document/part_plan.hpp"
 #include "turnwright/planning/changed_request.hpp"
 #include "turnwright/planning/process_plan.hpp"
@@ -41,8 +44,12 @@ struct Candidates {
   std::vector<Refused> refused;
 };
 
+/// The currencies that the candidates' rates name.
+std::set<std::string> currencies(const Candidates& candidates);
+
 /// @param window_curves  as in the request for a plan.
-/// @throws InputError if no candidate can be read, with the problems of the first one.
+/// @throws InputError if no candidate can be read, with the problems of the first one; if
+///   rates are in several currencies.
 Candidates prepared_candidates(const nlohmann::json& json, const Catalogue& catalogue,
                                const std::string& document, bool window_curves = false);
 

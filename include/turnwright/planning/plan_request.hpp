@@ -169,6 +169,8 @@ struct PlanRequest {
   Objective objective = Objective::cost;
   std::optional<double> batch;  ///< absent: preparing the machine is left out of a part
   double machine_per_min = 0;   ///< cost of a machine minute
+  std::string currency =
+      {};  ///< of all money, as "EUR"; told, not converted; empty: not named
   double stock_price = 0;       ///< of the piece of stock for one part
   std::optional<double> price;  ///< of a part; needed for `profit`
   double machine_share_um = 0;  ///< of every tolerance, in addition to `machine.errors`

@@ -205,6 +205,7 @@ catalogue::Lathe read_lathe(Reader r) {
   read_times(r.object("times"), m);
   Reader rate = r.object("rate");
   m.cost_per_min = rate.number("cost_per_min", within(1e-6, 1e4));
+  m.currency = read_currency(rate);
   finish_group(rate);
   Reader room = r.object("room");
   m.swing_mm = room.number("swing_mm", above_up_to(0, 20000, "mm"));

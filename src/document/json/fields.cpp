@@ -64,6 +64,11 @@ double finish_group(Reader& group) {
   return uncertainty_pct;
 }
 
+std::string read_currency(Reader& r) {
+  constexpr std::size_t kMost = 10;
+  return r.has("currency") ? r.text("currency", kMost) : "";
+}
+
 catalogue::Rechucking read_rechucking_by_jaws(Reader r) {
   const auto error = within(0, 1000, "um");
   r = r.as_object();

@@ -39,6 +39,9 @@ catalogue::RootCompliance read_compliance(Reader r);
 /// Damping ratio of a mode of slender work or of a bar, "damping_ratio".
 inline const Bounds kDamping = above_up_to(0, 0.5);
 
+/// "currency", the name of one; empty if absent.
+std::string read_currency(Reader& r);
+
 /// Radius of a rounded cutting edge, "edge_um".
 inline const Bounds kEdgeRadius = above_up_to(0, 500, "um");
 

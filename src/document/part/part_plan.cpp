@@ -40,8 +40,10 @@ void read_rates(Draft& draft) {
     if (const auto rate = rates->optional_number("machine_per_min", within(1e-6, 1e4)))
       plan.machine_per_min = *rate;
     plan.price = rates->optional_number("price", above_up_to(0, 1e9));
+    plan.currency = read_currency(*rates);
     rates->finish();
   }
+  if (plan.currency.empty()) plan.currency = plan.machine.currency;
   if (!rates || !rates->has("machine_per_min")) {
     plan.machine_per_min = plan.machine.cost_per_min;
     draft.assume("/rates/machine_per_min", plan.machine_per_min,

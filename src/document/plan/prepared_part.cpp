@@ -323,6 +323,13 @@ PreparedDocument prepared_part(const nlohmann::json& json, const Catalogue& cata
   return prepared(with_setups(first, catalogue, document), catalogue);
 }
 
+std::set<std::string> currencies(const Candidates& candidates) {
+  std::set<std::string> all;
+  for (const auto& c : candidates.usable) all.insert(c.document.part.currency);
+  all.erase("");
+  return all;
+}
+
 Candidates prepared_candidates(const nlohmann::json& json, const Catalogue& catalogue,
                                const std::string& document, bool window_curves) {
   Candidates out;
@@ -337,6 +344,12 @@ Candidates prepared_candidates(const nlohmann::json& json, const Catalogue& cata
           {variant.name, p.pointer + ": got " + p.got + ", expected " + p.expected});
     }
   if (out.usable.empty()) throw *first;
+  if (const auto all = currencies(out); all.size() > 1)
+    throw InputError(
+        document, {{"/choose/machine", fmt::format("rates in {}", fmt::join(all, ", ")),
+                    "machines whose rates are in one currency, or a rate and a "
+                    "currency in /rates",
+                    "conflict"}});
   return out;
 }
 

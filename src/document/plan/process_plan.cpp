@@ -379,6 +379,7 @@ ordered_json to_json(const ProcessPlan& plan, const std::vector<Assumption>& ass
 
 ordered_json plan_result(const ProcessPlan& plan, const PreparedDocument& document) {
   auto out = title_block(document.part.drawing);
+  if (!document.part.currency.empty()) out["currency"] = document.part.currency;
   out.update(to_json(plan, document.assumed));
   return out;
 }

@@ -78,6 +78,20 @@ void read_part(const Reader& item, const Catalogue& catalogue, bool priced,
     item.problem_at("stock", "no price of its own beside the quote's stock", "conflict");
 }
 
+// Nothing is converted; what names no currency counts as in that of the others.
+void check_currency(Reader& r, QuoteRequest& q) {
+  std::set<std::string> all;
+  for (const auto& candidates : q.parts) all.merge(currencies(candidates));
+  if (q.currency.empty() && all.size() == 1) q.currency = *all.begin();
+  all.insert(q.currency);
+  all.erase("");
+  if (all.size() > 1)
+    r.problem_at(
+        "currency",
+        fmt::format("one currency of all rates and prices, not {}", fmt::join(all, ", ")),
+        "conflict");
+}
+
 // A candidate that can be offered, with its place among the plans; or why it cannot.
 struct Considered {
   std::string name;
@@ -188,13 +202,14 @@ QuoteRequest load_quote(const json& request, const Catalogue& catalogue) {
   read_format(r, "turnwright-quote/1");
   QuoteRequest q;
   q.batches = read_batches(r);
-  if (r.has("currency")) q.currency = r.text("currency", 10);
+  q.currency = read_currency(r);
   if (auto group = r.optional_object("charges")) read_charges(*group, q.charges);
   if (auto group = r.optional_object("stock")) q.stock = read_stock(*group);
   if (auto group = r.optional_object("energy")) read_energy(*group, q);
   const bool priced = q.stock.per_kg || q.stock.per_bar;
   for (const auto& item : r.items("parts", 1, kQuotedParts))
     read_part(item, catalogue, priced, q, problems);
+  check_currency(r, q);
   r.finish();
   problems.throw_if_any();
   return q;

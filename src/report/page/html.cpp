@@ -33,11 +33,12 @@ std::string header(std::string_view name, const ordered_json& result) {
          escaped(status) + "</p>\n";
   if (feasible) {
     out += "<dl>\n";
-    out += key_figure("Cost", money(number(result, "cost_per_part")), "per part");
+    out +=
+        key_figure("Cost", money_of(result, number(result, "cost_per_part")), "per part");
     out += key_figure("Time", duration(number(result, "time_per_part_min")),
                       "per part" + preparing(result));
     if (const auto profit = number(result, "profit_per_min"))
-      out += key_figure("Profit", money(profit), "per minute");
+      out += key_figure("Profit", money_of(result, profit), "per minute");
     const auto& worst = object(result, "worst_conformance");
     if (const auto p = number(worst, "P_conform"))
       out += key_figure("Worst tolerance", shown(100 * *p, 2),

@@ -11,7 +11,7 @@ std::string duration(std::optional<double> minutes);
 /// Seconds with one decimal, for a column of a table.
 std::string seconds(std::optional<double> minutes);
 
-/// At least two decimals and three digits: "12.35", "0.0131".  A currency is not known.
+/// At least two decimals and three digits: "12.35", "0.0131".
 std::string money(std::optional<double> value);
 
 }  // namespace turnwright::report

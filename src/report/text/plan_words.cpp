@@ -161,17 +161,22 @@ std::string kept(const ordered_json& result) {
   return fmt::format("every limit is kept, {} by the fewest parts, {} %", id, percent);
 }
 
+std::string money_of(const ordered_json& result, std::optional<double> value) {
+  const auto currency = word(result, "currency");
+  return currency.empty() ? money(value) : money(value) + " " + currency;
+}
+
 std::string setting_up(const ordered_json& result) {
   const auto& s = object(result, "setting_up");
   const auto minutes = number(s, "min"), cost = number(s, "cost");
   if (!minutes || !cost) return "";
   const auto once =
-      fmt::format("{} and {} once per batch", duration(minutes), money(cost));
+      fmt::format("{} and {} once per batch", duration(minutes), money_of(result, cost));
   const auto share = number(s, "min_per_part");
   if (!share)
     return once + "; not counted per part, because the request gives no batch size";
   return fmt::format("{}, of which {} and {} are counted per part", once, duration(share),
-                     money(number(s, "cost_per_part")));
+                     money_of(result, number(s, "cost_per_part")));
 }
 
 Stack stack_of(const ordered_json& tolerance) {

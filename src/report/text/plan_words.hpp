@@ -1,5 +1,6 @@
 #pragma once
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -51,6 +52,9 @@ bool keeps_too_few(const nlohmann::ordered_json& result);
 /// What the limits of a feasible plan come to: kept, by what share of the parts the
 /// tolerance that fewest of them keep.
 std::string kept(const nlohmann::ordered_json& result);
+
+/// money(), with the currency that the result names.
+std::string money_of(const nlohmann::ordered_json& result, std::optional<double> value);
 
 /// Preparing the machine, and what each part bears of it; empty if nothing is known.
 std::string setting_up(const nlohmann::ordered_json& result);

@@ -33,11 +33,12 @@ std::string header(const ordered_json& result) {
       out += paragraph("proof   ", proof(*c));
   } else {
     out += paragraph("status  ", kept(result));
-    out += paragraph("cost    ", money(number(result, "cost_per_part")) + " per part");
+    out += paragraph("cost    ",
+                     money_of(result, number(result, "cost_per_part")) + " per part");
     out += paragraph("time    ", duration(number(result, "time_per_part_min")) +
                                      " per part" + preparing(result));
     if (const auto profit = number(result, "profit_per_min"))
-      out += paragraph("profit  ", money(profit) + " per minute");
+      out += paragraph("profit  ", money_of(result, profit) + " per minute");
     if (const auto words = setting_up(result); !words.empty())
       out += paragraph("set up  ", words);
     const auto certificate = result.find("certificate");

@@ -6,6 +6,7 @@
 #include "document/json/file.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/document/part_plan.hpp"
+#include "turnwright/document/prepared_part.hpp"
 
 namespace turnwright::document::choices_test {
 namespace {
@@ -162,6 +163,35 @@ TEST(Choices, OnlyAPlanChooses) {
   } catch (const InputError& error) {
     EXPECT_EQ(error.problems()[0].expected, "nothing: only plan chooses");
   }
+}
+
+// Costs of two machines are compared only in one currency.
+TEST(Choices, MachinesNameTheSameCurrency) {
+  auto catalogue = test_catalogue();
+  auto other = catalogue.machines.at(0);
+  other.id = "other";
+  catalogue.machines.push_back(other);
+  const json part = json::parse(R"({
+    "format": "turnwright-part/1", "name": "Pin", "material": "test-steel",
+    "stock": {"kind": "bar", "diameter_mm": 35, "length_mm": 84, "left_allowance_mm": 2},
+    "outer": [{"id": "d1", "kind": "cylinder", "length_mm": 80, "diameter_mm": 32}],
+    "choose": {"machine": ["lathe-medium", "other"]},
+    "setups": [{"hold": "left", "grip_mm": 20, "clampings": ["chuck"]},
+               {"hold": "right", "grip_mm": 40, "clampings": ["chuck"]}]})");
+  const auto told = [&](const char* first, const char* second) {
+    catalogue.machines[0].currency = first;
+    catalogue.machines[1].currency = second;
+    try {
+      const auto all = currencies(prepared_candidates(part, catalogue, "t"));
+      return all.empty() ? std::string("none") : *all.begin();
+    } catch (const InputError& error) {
+      return error.problems().front().pointer + " " + error.problems().front().got;
+    }
+  };
+  EXPECT_EQ(told("", ""), "none");
+  EXPECT_EQ(told("EUR", ""), "EUR");
+  EXPECT_EQ(told("EUR", "EUR"), "EUR");
+  EXPECT_EQ(told("USD", "EUR"), "/choose/machine rates in EUR, USD");
 }
 
 }  // namespace

@@ -63,6 +63,18 @@ TEST(QuoteRequest, TellsAllProblemsAtTheirPlaces) {
   EXPECT_EQ(pointers(json::object()), std::vector<std::string>{"/parts"});
 }
 
+TEST(QuoteRequest, RatesAndPricesAreOfOneCurrency) {
+  auto in_euros = pin(), in_dollars = pin();
+  in_euros["rates"]["currency"] = "EUR";
+  in_dollars["rates"]["currency"] = "USD";
+  EXPECT_EQ(load_quote({{"parts", {pin()}}}, test_catalogue()).currency, "");
+  EXPECT_EQ(load_quote({{"parts", {pin(), in_euros}}}, test_catalogue()).currency, "EUR");
+  EXPECT_EQ(pointers({{"parts", {in_euros, in_dollars}}}),
+            std::vector<std::string>{"/currency"});
+  EXPECT_EQ(pointers({{"parts", {in_euros}}, {"currency", "USD"}}),
+            std::vector<std::string>{"/currency"});
+}
+
 TEST(Routing, IsCsvThatASpreadsheetTakesForText) {
   const auto row = [](const char* part) {
     return nlohmann::ordered_json{

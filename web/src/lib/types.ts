@@ -188,6 +188,7 @@ export interface WhatIfAnswer extends Sentence {
 
 export interface Plan {
   status: 'ok' | 'infeasible';
+  currency?: string;
   cost_per_part: number | null;
   time_per_part_min: number | null;
   worst_conformance?: { tolerance: string; P_conform: number; wanted: number };
