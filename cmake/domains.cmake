@@ -28,6 +28,19 @@ endif()
 tw_domain(multipass DEPENDS base optimise PRIVATE_LIBS Eigen3::Eigen)
 if(BUILD_TESTING)
   target_link_libraries(multipass_test PRIVATE NLopt::nlopt_cxx)
+  # Bonmin's optima stand beside ours where it is installed.
+  find_library(BONMIN_LIBRARY bonmin)
+  find_path(BONMIN_INCLUDE_DIR BonTMINLP.hpp PATH_SUFFIXES coin)
+  if(BONMIN_LIBRARY AND BONMIN_INCLUDE_DIR)
+    target_include_directories(multipass_test SYSTEM PRIVATE ${BONMIN_INCLUDE_DIR})
+    target_compile_definitions(multipass_test PRIVATE HAVE_CSTDDEF)
+    target_link_libraries(multipass_test PRIVATE ${BONMIN_LIBRARY} Cbc CoinUtils ipopt)
+    set_source_files_properties(tests/multipass/bonmin_witness_test.cpp
+      PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  else()
+    set_source_files_properties(tests/multipass/bonmin_witness_test.cpp
+      PROPERTIES HEADER_FILE_ONLY ON)
+  endif()
 endif()
 
 tw_domain(volumetric DEPENDS base catalogue gcode

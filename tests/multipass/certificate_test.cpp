@@ -141,7 +141,7 @@ TEST_P(Certificate, HoldsForEveryAllowedPointAndLocalSolve) {
   const Answer a = optimum(m);
   if (!a.best) return;  // drawn impossible
   EXPECT_LE(a.gap, kGap);
-  const Oracle o{m, a.best->n};
+  const Oracle o{m, static_cast<double>(a.best->n)};
   Walk walk{o, span(o), point(*a.best)};
   for (int k = 0; walk.allowed < kPoints && k < 5 * kPoints; ++k) walk.step();
   EXPECT_EQ(walk.allowed, kPoints);

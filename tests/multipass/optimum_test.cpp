@@ -85,7 +85,7 @@ double by_shape(const Problem& m, int n) {
   const double ds = m.dt_mm - n * dr;
   if (dr > m.d.upper * (1 + 1e-12) || ds < m.d.lower) return 1e9;
   const double fr = std::min(m.f.upper, feed_of(dr)), fs = std::min(fs_most, fr / m.k4);
-  const Oracle o{m, n};
+  const Oracle o{m, static_cast<double>(n)};
   const auto speed = [&](double T, double f, double d) {
     return std::log(m.C0 / (T * std::pow(f, m.q) * std::pow(d, m.r))) / m.p;
   };
@@ -150,7 +150,8 @@ bool binds(const Answer& a, const std::string& name) {
 }
 
 /// Best cost of an allowed point that ISRES finds, then a random descent from it.
-double independent(const Oracle& o, unsigned seed, int budget) {
+double independent(const Problem& m, int n, unsigned seed, int budget) {
+  const Oracle o{m, static_cast<double>(n)};
   const Span s = span(o);
   if (s.empty()) return std::numeric_limits<double>::infinity();
   const auto five = [](const std::vector<double>& x) {
@@ -220,11 +221,11 @@ TEST(Multipass, EachLimitBindsSomewhereAndNoSearchBeatsIt) {
     for (const Limit& l : a.limits) {
       if (l.binding) bound.insert(l.name);
     }
-    const Oracle o{m, a.best->n};
+    const Oracle o{m, static_cast<double>(a.best->n)};
     EXPECT_LE(o.worst(point(*a.best)), 1.01e-9);
     EXPECT_NEAR(o.cost(point(*a.best)), *a.best->UC, 1e-12 * *a.best->UC);
     for (int n = std::max(1, a.best->n - 1); n <= a.best->n + 1; ++n)
-      EXPECT_GE(independent({m, n}, 1, 4000), a.lower_bound * (1 - 1e-9)) << n;
+      EXPECT_GE(independent(m, n, 1, 4000), a.lower_bound * (1 - 1e-9)) << n;
   }
   for (const char* limit : {"PU", "FU", "QU", "SC", "T_min", "T_max"})
     for (const std::string pass : {"rough:", "finish:"})
@@ -236,7 +237,7 @@ TEST(Multipass, TheSearchThatNeverBeatsItComesNear) {
   int near = 0, all = 0;
   for (const auto& [name, m] : variants()) {
     const Answer a = optimum(m);
-    const double found = independent({m, a.best->n}, 2, 6000);
+    const double found = independent(m, a.best->n, 2, 6000);
     near += found < *a.best->UC * 1.01;
     ++all;
   }
@@ -252,7 +253,7 @@ TEST(Multipass, RandomProblemsAgainstIndependentSearches) {
     const Answer a = optimum(m);
     for (const PassCount& c : a.per_count) {
       EXPECT_NE(c.status, PassCount::Status::unsettled);
-      const double found = independent({m, c.n}, k, 2500);
+      const double found = independent(m, c.n, k, 2500);
       if (c.status == PassCount::Status::infeasible)
         EXPECT_EQ(found, std::numeric_limits<double>::infinity()) << c.n;
       else
@@ -261,7 +262,7 @@ TEST(Multipass, RandomProblemsAgainstIndependentSearches) {
     if (!a.best) continue;
     ++solved;
     EXPECT_LE(a.gap, 1e-6);
-    const Oracle o{m, a.best->n};
+    const Oracle o{m, static_cast<double>(a.best->n)};
     EXPECT_LE(o.worst(point(*a.best)), 1.01e-9);
     EXPECT_NEAR(o.cost(point(*a.best)), *a.best->UC, 1e-12 * *a.best->UC);
   }

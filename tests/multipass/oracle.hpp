@@ -16,7 +16,7 @@ using Five = std::array<double, 5>;  // ln Vr, ln fr, ln dr, ln Vs, ln fs
 
 struct Oracle {
   Problem m;
-  int n = 1;
+  double n = 1;  ///< a whole number, but for solvers that relax it
 
   double ds(const Five& x) const { return m.dt_mm - n * std::exp(x[2]); }
 
