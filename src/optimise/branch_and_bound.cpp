@@ -10,10 +10,6 @@
 namespace turnwright::optimise {
 namespace {
 
-// More than what Interval loses by not rounding outwards (1e-14), and than the 1e-10 to
-// which an optimum keeps its limits: it is not proved to be infeasible.
-constexpr double kRounding = 2e-10;
-
 struct Node {
   double lower = -kInfinity;  // of f over the box
   long birth = 0;
@@ -31,17 +27,19 @@ struct Later {
 // combinations (without their cut).
 class Functions {
  public:
-  void evaluate(const Piece& piece, const Box& box) {
+  // False if nothing in the box is feasible and below the cut.
+  bool evaluate(const Piece& piece, const Box& box, double cut) {
     piece_ = &piece;
     box_ = box;
-    piece.bound(box, f_, g_);
+    if (!piece.bound(box, cut, f_, g_)) return false;
     gather(f_, g_, over_);
     for (auto& v : at_) v.clear();
     lower_.resize(over_.size());
     for (std::size_t k = 0; k < over_.size(); ++k) lower_[k] = over_[k].v.lo;
+    return true;
   }
   std::size_t size() const { return over_.size(); }
-  double natural(std::size_t k) const { return lower_[k]; }
+  bool excluded(std::size_t k, double limit) const { return excludes(over_[k], limit); }
   double upper(std::size_t k) const { return over_[k].v.hi; }
 
   // Lower bound by (1) or by the natural extension.
@@ -53,7 +51,8 @@ class Functions {
     const double least = sum(t);
     if (!std::isfinite(least)) return true;
     for (std::size_t j = 0; j < box.size(); ++j) {
-      const double rest = limit + kRounding - (least - t.least[j]);  // H (y - c) <= rest
+      const double rest =
+          limit + kBoxRounding - (least - t.least[j]);  // H (y - c) <= rest
       const Interval H = over_[k].d[j];
       if (H.lo > 0)
         box[j].hi =
@@ -184,14 +183,14 @@ class Search {
     const auto& piece = pieces_[node.piece];
     for (int round = 0; round < kNarrowings; ++round) {
       ++result_.nodes;
-      functions_.evaluate(piece, node.box);
+      if (!functions_.evaluate(piece, node.box, cut())) return settle(node.piece, cut());
       const double before = size(node.box);
       for (std::size_t k = 0; k < functions_.size(); ++k)
-        if (functions_.natural(k) > limit(piece, k) + kRounding)
+        if (functions_.excluded(k, limit(piece, k)))
           return settle(node.piece, cut());  // holds nothing feasible below the cut
       node.lower = std::max(node.lower, functions_.lower(0));
       for (std::size_t k = 0; k < functions_.size(); ++k) {
-        const double most = limit(piece, k) + kRounding;
+        const double most = limit(piece, k) + kBoxRounding;
         if (!std::isfinite(most) || functions_.upper(k) <= most) continue;
         if (functions_.lower(k) > most || !functions_.narrow(k, most, node.box))
           return settle(node.piece, cut());

@@ -25,11 +25,12 @@ Piece valleys(bool keep_out) {
   Piece p;
   p.box = {Interval(-2, 2), Interval(-2, 2), Interval(0)};
   p.constraints = keep_out ? 1 : 0;
-  p.bound = [keep_out](const Box& b, Bound& f, std::vector<Bound>& g) {
+  p.bound = [keep_out](const Box& b, double, Bound& f, std::vector<Bound>& g) {
     const auto x = variable<Interval, 3>(b[0], 0), y = variable<Interval, 3>(b[1], 1);
     f = log(height(x, y));
     g.clear();
     if (keep_out) g.push_back(ring(x, y));
+    return true;
   };
   p.value = [keep_out](const Point& y, double& f, std::vector<double>& g) {
     f = std::log(height(y[0], y[1]));
@@ -76,6 +77,26 @@ TEST(BranchAndBound, TakesTheBetterPieceAndBoundsTheOther) {
   EXPECT_GE(r.piece_bounds[0], r.lower_bound);
 }
 
+// A piece that drops a box by its first functions says nothing of the others.
+TEST(BranchAndBound, ABoxThatIsExcludedNeedsNoFurtherFunctions) {
+  auto whole = valleys(true), brief = whole;
+  int left_out = 0;
+  brief.bound = [&, bound = whole.bound](const Box& b, double cut, Bound& f,
+                                         std::vector<Bound>& g) {
+    bound(b, cut, f, g);
+    if (!excludes(f, cut)) return true;
+    ++left_out;
+    g.clear();
+    return false;
+  };
+  std::vector<Piece> one{whole}, other{brief};
+  const auto a = branch_and_bound(one, kInfinity), b = branch_and_bound(other, kInfinity);
+  EXPECT_EQ(a.lower_bound, b.lower_bound);
+  EXPECT_EQ(a.upper_bound, b.upper_bound);
+  EXPECT_EQ(a.nodes, b.nodes);
+  EXPECT_GT(left_out, 0);
+}
+
 TEST(BranchAndBound, ProvesThatNothingIsFeasible) {
   auto p = valleys(true);
   p.box = {Interval(-1.2, -0.8), Interval(0.1, 0.3), Interval(0)};  // inside the ring
@@ -99,10 +120,11 @@ TEST(BranchAndBound, ALagrangianSavesBoxesAndChangesNoAnswer) {
   p.box = {Interval(std::log(0.1), std::log(10)), Interval(std::log(0.1), std::log(10)),
            Interval(0)};
   p.constraints = 1;
-  p.bound = [](const Box& b, Bound& f, std::vector<Bound>& g) {
+  p.bound = [](const Box& b, double, Bound& f, std::vector<Bound>& g) {
     const auto u = variable<Interval, 3>(b[0], 0), v = variable<Interval, 3>(b[1], 1);
     f = log(exp(u) + exp(v));
     g.assign(1, -u - v);
+    return true;
   };
   p.value = [](const Point& y, double& f, std::vector<double>& g) {
     f = std::log(std::exp(y[0]) + std::exp(y[1]));
@@ -124,11 +146,12 @@ TEST(BranchAndBound, ASmoothFunctionBelowACornerEndsTheSearchSooner) {
   const auto piece = [](bool smooth) {
     Piece p;
     p.box = {Interval(-1, 1.1), Interval(-1, 1.2), Interval(0)};
-    p.bound = [smooth](const Box& b, Bound& f, std::vector<Bound>& g) {
+    p.bound = [smooth](const Box& b, double, Bound& f, std::vector<Bound>& g) {
       const auto x = variable<Interval, 3>(b[0], 0), y = variable<Interval, 3>(b[1], 1);
       f = max(x + sqr(y), sqr(y) - x);
       g.clear();
       if (smooth) g.push_back(sqr(y));
+      return true;
     };
     p.value = [smooth](const Point& y, double& f, std::vector<double>& g) {
       f = std::abs(y[0]) + sqr(y[1]);

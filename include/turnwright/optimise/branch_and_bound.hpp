@@ -14,10 +14,19 @@ namespace turnwright::optimise {
 
 inline constexpr int kBoxVariables = 3;
 
+/// More than what Interval loses by not rounding outwards (1e-14), and than the 1e-10 to
+/// which an optimum keeps its limits: it is not proved to be infeasible.
+inline constexpr double kBoxRounding = 2e-10;
+
 /// An unused variable has lower == upper.
 using Box = std::array<Interval, kBoxVariables>;
 using Point = std::array<double, kBoxVariables>;
 using Bound = Dual<Interval, kBoxVariables>;
+
+/// Whether a function is nowhere in the box at most `limit`.
+inline bool excludes(const Bound& function, double limit) {
+  return function.v.lo > limit + kBoxRounding;
+}
 
 /// A weighted sum that is at most zero at every feasible point better than the incumbent:
 /// weight (f - cut) + sum multipliers_i g_i <= 0.  Weight 1 with the multipliers of an
@@ -34,7 +43,9 @@ struct Piece {
   /// Encloses ln of the objective and every g_i, with gradients, over a box.  A g beyond
   /// `constraints` is a function nowhere above f that combinations use in place of f:
   /// where f has a kink, a smooth function ends the search sooner.
-  std::function<void(const Box&, Bound& f, std::vector<Bound>& g)> bound;
+  /// Once f or one of the constraints shows that nothing in the box is feasible and below
+  /// `cut` (`excludes`), false may be returned, with the other functions left out.
+  std::function<bool(const Box&, double cut, Bound& f, std::vector<Bound>& g)> bound;
   /// The same at a point.
   std::function<void(const Point&, double& f, std::vector<double>& g)> value;
   /// Value of the objective at a feasible point near the middle of a box, or +infinity.
@@ -73,7 +84,7 @@ struct SearchResult {
 /// in the order of their creation, so the result is the same on every run.
 /// Near an optimum the gradient of the Lagrangian vanishes and the error of (1) is of
 /// second order in the width of the box; this ends the search.  Every comparison allows
-/// 2e-10 for rounding.
+/// kBoxRounding.
 /// Source: [Neumaier 1990], mean value form; Lagrangian cut derived here.
 SearchResult branch_and_bound(std::vector<Piece>& pieces, double incumbent,
                               const SearchOptions& options = {});

@@ -61,11 +61,11 @@ struct Reduced {
 /// from the economic one, T_e (v/v_e)^(-1/n): over a box that says more than Taylor's law
 /// with a speed, feed and depth that each vary.  A wider window cannot cost more, which
 /// gives `smooth` from the weights of each operation's speed limits (none: the
-/// objective).
-template <class T, class Sink>
+/// objective).  The tolerances are checked if `wanted` says so, told the objective.
+template <class T, class Sink, class Wanted>
 Reduced<T> evaluate_at_best_speed(const Chain& chain, Choice<T>& c,
                                   const std::array<SpeedWeights, 2>& weights,
-                                  const Sink& sink) {
+                                  const Sink& sink, const Wanted& wanted) {
   const auto F = forces(chain, c);
   Reduced<T> sum;
   for (std::size_t i = 0; i < chain.operations.size(); ++i) {
@@ -90,8 +90,14 @@ Reduced<T> evaluate_at_best_speed(const Chain& chain, Choice<T>& c,
     sum =
         i == 0 ? own : Reduced<T>{sum.objective + own.objective, sum.smooth + own.smooth};
   }
-  tolerance_checks(chain, c, F, sink);
+  if (wanted(sum.objective)) tolerance_checks(chain, c, F, sink);
   return sum;
+}
+template <class T, class Sink>
+Reduced<T> evaluate_at_best_speed(const Chain& chain, Choice<T>& c,
+                                  const std::array<SpeedWeights, 2>& weights,
+                                  const Sink& sink) {
+  return evaluate_at_best_speed(chain, c, weights, sink, [](const T&) { return true; });
 }
 
 }  // namespace turnwright::planning

@@ -10,6 +10,7 @@ namespace {
 
 using optimise::Bound;
 using optimise::Box;
+using optimise::excludes;
 
 // g for any scalar type with a logarithm; see violation().
 template <class T>
@@ -143,8 +144,8 @@ Box RecipeModel::box() const {
   return b;
 }
 
-void RecipeModel::bound(const Box& box, const SpeedWeightsOfAll& weights, Bound& f,
-                        std::vector<Bound>& g) const {
+bool RecipeModel::bound(const Box& box, double cut, const SpeedWeightsOfAll& weights,
+                        Bound& f, std::vector<Bound>& g) const {
   using L = LogDual<optimise::kBoxVariables>;
   L::Half half;
   for (std::size_t k = 0; k < half.size(); ++k) half[k] = width(box[k]) / 2;
@@ -154,13 +155,21 @@ void RecipeModel::bound(const Box& box, const SpeedWeightsOfAll& weights, Bound&
         L::variable(box[static_cast<std::size_t>(k)], k, half);
   c.a = L::variable(box[2], 2, half);
   g.clear();
+  // The tolerances take most of the time, so a box is dropped without them if it can be.
+  bool left = true;
   const auto cost = evaluate_at_best_speed(
       chain_, c, weights,
       [&](std::size_t, Check check, bool, const auto& v, const auto& limit) {
         g.push_back(g_of(check, v, limit));
+      },
+      [&](const L& objective) {
+        f = log(objective);
+        left = !excludes(f, cut) &&
+               std::ranges::none_of(g, [](const Bound& b) { return excludes(b, 0); });
+        return left;
       });
-  f = log(cost.objective);
   g.push_back(log(cost.smooth));
+  return left;
 }
 
 void RecipeModel::value(const optimise::Point& y, const SpeedWeightsOfAll& weights,
@@ -181,8 +190,8 @@ optimise::Piece RecipeModel::piece(const SpeedWeightsOfAll& weights) const {
   optimise::Piece p;
   p.box = box();
   p.constraints = reduced_rows_;
-  p.bound = [this, weights](const Box& b, Bound& f, std::vector<Bound>& g) {
-    bound(b, weights, f, g);
+  p.bound = [this, weights](const Box& b, double cut, Bound& f, std::vector<Bound>& g) {
+    return bound(b, cut, weights, f, g);
   };
   p.value = [this, weights](const optimise::Point& y, double& f, std::vector<double>& g) {
     value(y, weights, f, g);

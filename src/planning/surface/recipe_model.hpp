@@ -69,7 +69,7 @@ class RecipeModel {
   optimise::Box box() const;
   void evaluate(std::span<const double> y, optimise::Values& out) const;
   using SpeedWeightsOfAll = std::array<SpeedWeights, 2>;
-  void bound(const optimise::Box& box, const SpeedWeightsOfAll& weights,
+  bool bound(const optimise::Box& box, double cut, const SpeedWeightsOfAll& weights,
              optimise::Bound& f, std::vector<optimise::Bound>& g) const;
   void value(const optimise::Point& y, const SpeedWeightsOfAll& weights, double& f,
              std::vector<double>& g) const;
