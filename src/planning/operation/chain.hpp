@@ -122,19 +122,16 @@ class StationErrors<LogDual<N>> {
         last_.push_back(yielded(law, o.cut, c.a, ap, f,
                                 error_mm(chain, s, c, F, s.passes.size() - 1)));
     }
-    if (!face_) shares_ = force_shares(o.cut, ap, f, F_, last_);
+    if (!face_) shares_ = ForceShares<N>::of(o.cut, ap, f, F_, last_);
   }
   Error sum(const Functional& g) const {
     if (face_) return of_face(g);
-    Error all(0.0), share(0.0);
-    for (const auto& [station, weight] : g.terms) {
-      all = all + last_[station].e * weight;
-      if (shares_) share = share + (*shares_)[station] * weight;
-    }
+    Error all(0.0);
+    for (const auto& [station, weight] : g.terms) all = all + last_[station].e * weight;
     if (!shares_) return all;
-    const Interval P = exp(F_.pushing_N->ln);
-    all.v = intersect(all.v, P * share.v);
-    for (std::size_t j = 0; j < N; ++j) all.d[j] = intersect(all.d[j], P * share.d[j]);
+    const Error together = shares_->sum(g.terms);
+    all.v = intersect(all.v, together.v);
+    for (std::size_t j = 0; j < N; ++j) all.d[j] = intersect(all.d[j], together.d[j]);
     return all;
   }
 
@@ -152,7 +149,7 @@ class StationErrors<LogDual<N>> {
   cutting::Forces<LogDual<N>> F_;
   bool face_ = false;
   std::vector<Yielded<N>> last_;
-  std::optional<std::vector<Error>> shares_;
+  std::optional<ForceShares<N>> shares_;
 };
 
 /// Value and limit of every functional.
