@@ -278,7 +278,6 @@ TEST(ReviewOfOwnPrograms, IsTheSameInEveryControl) {
   for (const auto& d : gcode::dialects())
     for (const bool cycles : {false, true}) {
       if (cycles && d.thread_cycle.empty()) continue;
-      if (cycles && d.control == gcode::Control::siemens) continue;  // below
       const auto r = reviewed(p, {.control = d.control, .cycles = cycles});
       for (std::size_t i = 0; i < r.review.setups.size(); ++i) {
         const auto &a = one.review.setups[i], &b = r.review.setups[i];
@@ -293,18 +292,6 @@ TEST(ReviewOfOwnPrograms, IsTheSameInEveryControl) {
             << d.id;
       }
     }
-}
-
-// Calls of Siemens' cycles are not followed, and told.
-TEST(ReviewOfOwnPrograms, TellsTheCallsOfCyclesItDoesNotFollow) {
-  const auto& p = nc::test::planned_reference("threaded-spindle");
-  const auto r = reviewed(p, {.control = gcode::Control::siemens, .cycles = true});
-  const auto told = std::ranges::any_of(r.review.setups, [](const auto& s) {
-    return std::ranges::any_of(s.unknown, [](const auto& u) {
-      return u.what.find("CYCLE97") != std::string::npos;
-    });
-  });
-  EXPECT_TRUE(told);
 }
 
 // A knurling wheel cuts nothing, and what it does is told.

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 
 #include "../nc/plans.hpp"
 #include "turnwright/cutting/cut.hpp"
@@ -106,6 +107,33 @@ TEST(Review, FollowsNoseCompensation) {
   };
   EXPECT_NEAR(cone_mm("G42\n"), 35, 1e-3);
   EXPECT_NEAR(cone_mm(""), 35 + 2 * 0.8 * (1.25 - std::sqrt(1 + 0.25 * 0.25)), 1e-3);
+}
+
+// CYCLE95 to 52 mm in 4 passes of 2.75 mm, of which the stock's surface takes 1 mm from the
+// first; finishing with the nose beside the contour leaves the part as drawn.
+TEST(Review, FollowsSiemensStockRemoval) {
+  const auto& p = shaft();
+  const auto r = review(
+      p,
+      {{0,
+        read_program("G18 G90 G95 DIAMON\nT1 D1\nG97 S1000 M3\n"
+                     "CYCLE95(\"SHAFT\",3,,,,0.25,,0.25,9)\nM30\nPROC SHAFT\n"
+                     "G1 X30 Z4\nZ-40\nX40 Z-60\nZ-70\nX52\nRET\n",
+                     {.control = Control::siemens, .n_max_rpm = p.machine.n_max_rpm})}},
+      {{.number = 1, .turning = tool("PCLNL-CNMG120408-PM")}});
+  for (const auto& u : r.setups[0].unknown) ADD_FAILURE() << u.what << u.why;
+  EXPECT_TRUE(r.setups[0].rapids.empty());
+  std::map<std::string, double> sizes;
+  for (const auto& s : r.sizes) sizes[s.on] = s.diameter_mm;
+  EXPECT_NEAR(sizes.at("d2"), 30, 2e-3);
+  EXPECT_NEAR(sizes.at("c"), 35, 2e-3);
+  std::vector<double> depths;
+  for (const auto& c : r.setups[0].cuts)
+    if (c.on == "d2")
+      for (const auto& pass : c.passes) depths.push_back(pass.ap_mm);
+  ASSERT_EQ(depths.size(), 4u);
+  const double expected[] = {1.75, 2.75, 2.75, 2.75};
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(depths[i], expected[i], 2e-3);
 }
 
 // What the edge wears, and the grip by VDI 3106, whose lever is the part before the cut.

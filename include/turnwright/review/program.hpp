@@ -47,6 +47,7 @@ struct ReadMove {
 struct Run {
   toolpath::Step step;  ///< conditions alone: neither comments nor moves
   std::vector<ReadMove> moves = {};
+  double wait_min = 0;  ///< dwells between and behind them
 };
 
 struct TurningProgram {
@@ -78,13 +79,15 @@ struct ReadOptions {
 ///     fanuc-b         G76
 ///     linuxcnc        G76
 ///     okuma           G33 comes back to where it began
+///     siemens         CYCLE81 to 85, 840, 95, 97
 ///
 /// Threads of a cycle become plain moves, the k-th cut of a depth
 ///
 ///     d_k = d_1 k^(1/R), R = 2 but for LinuxCNC's word R, until the whole depth.       (1)
 ///
 /// Variables, expressions, subprograms, branches and loops are executed: LinuxCNC's O words
-/// and #<name>, Fanuc's macro B, M97, M98, M99 and G65; at most 200,000 lines beyond each
+/// and #<name>, Fanuc's macro B, M97, M98, M99 and G65, Siemens' R and DEF, IF to UNTIL,
+/// labels and programs by name; at most 200,000 lines beyond each
 /// once, and calls ten deep.
 ///
 /// Reference returns move the tool to a place that is not known.  Everything else is listed

@@ -113,6 +113,7 @@ class Follower {
 
  private:
   void follow(const Run& run) {
+    out_.minutes.air += run.wait_min;
     if (run.step.stop) {
       end_pass();
       ++out_.stops;

@@ -30,6 +30,27 @@ enum class RoughingAlong { z, x };
 void rough(ModalState& s, const Contour& contour, const ContourCycle& cycle,
            RoughingAlong along);
 
+/// Stock removal as CYCLE95 of Siemens does it, from where it begins itself: beside the
+/// contour's end and before its beginning by the distance of its retracts.
+struct StockRemoval {
+  double depth_mm = 0;  ///< the largest, of passes that are alike
+  double left_x_mm = 0, left_z_mm = 0,
+         left_mm = 0;                      ///< along X, Z and normal to the contour
+  double rough_feed = 0, finish_feed = 0;  ///< 0: that in force, of the blocks
+  double retract_mm = 1;
+  bool roughs = true, finishes = true;
+  bool corners = true;  ///< each pass goes on along the contour to the one before
+  bool inside = false;
+};
+
+/// Roughing passes of one depth to the contour with what is left, then the contour with the
+/// nose's compensation, as the control switches it on itself.  Contours that go one way in X
+/// and in Z are followed.
+/// Source: [Siemens 808D], page 187; of the depths that all are alike: from knowledge of the
+/// cycle, not opened.
+void remove_stock(ModalState& s, const Contour& contour, const StockRemoval& cycle,
+                  RoughingAlong along);
+
 /// The contour with what is left on it, moved by a shift that falls evenly from its whole at
 /// the first pass to none at the last (G73).
 void repeat_pattern(ModalState& s, const Contour& contour, const ContourCycle& cycle);

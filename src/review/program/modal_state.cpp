@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "turnwright/base/units.hpp"
 
@@ -13,6 +14,7 @@ using toolpath::Step;
 
 constexpr std::size_t kUnknowns = 200;  // listed; more are counted by their reader
 constexpr double kFarthest_mm = 1e5;
+constexpr double kLongestDwell_min = 1e4;
 constexpr double kLeastFeed = 1e-6, kLeastSpeed = 1e-3;  // less is none
 
 bool same_conditions(const Step& a, const Step& b) {
@@ -75,8 +77,49 @@ void ModalState::append(const Move& move, double lead_mm) {
       {from, move, line, {F_line, S_line, !per_revolution}, nose});
 }
 
+// Between two straight feeds; what the corner takes of each is cut off.
+void ModalState::break_corner(const Move& next) {
+  const auto c = std::exchange(corner, {});
+  auto* last = program.runs.empty() || program.runs.back().moves.empty()
+                   ? nullptr
+                   : &program.runs.back().moves.back();
+  const auto straight = [](const Move& m) { return m.kind == Move::Kind::feed; };
+  const auto refuse = [&] {
+    unknown(
+        "a chamfer or rounding",
+        "It is followed between straight cuts that are long enough, and left out here.");
+  };
+  if (!last || !last->from || !x_mm || !z_mm || !straight(last->to) || !straight(next) ||
+      last->to.x_mm != *x_mm || last->to.z_mm != *z_mm)
+    return refuse();
+  const double ah = *x_mm - last->from->h_mm, az = *z_mm - last->from->z_mm;
+  const double bh = next.x_mm - *x_mm, bz = next.z_mm - *z_mm;
+  const double a = std::hypot(ah, az), b = std::hypot(bh, bz);
+  const double cross = ah * bz - az * bh, dot = ah * bh + az * bz;
+  const double turn = std::atan2(std::abs(cross), dot);
+  const double half = std::tan(turn / 2);
+  const double leg = c.rounded     ? c.size_mm * half
+                     : c.by_length ? c.size_mm / (2 * std::cos(turn / 2))
+                                   : c.size_mm;
+  if (!(turn > 0) || !(leg < a && leg < b)) return refuse();
+  const toolpath::Point corner_at{*x_mm, *z_mm};
+  last->to.x_mm = *x_mm = corner_at.h_mm - leg * ah / a;
+  last->to.z_mm = *z_mm = corner_at.z_mm - leg * az / a;
+  Move m{Move::Kind::feed, corner_at.h_mm + leg * bh / b, corner_at.z_mm + leg * bz / b};
+  if (c.rounded) {
+    // The way turns with the clock, seen with X up and Z to the right, if the cross product
+    // is positive; the centre lies on that side.
+    const double side = cross > 0 ? 1 : -1;
+    m.kind = Move::Kind::arc;
+    m.clockwise = cross > 0;
+    m.centre = {*x_mm - side * c.size_mm * az / a, *z_mm + side * c.size_mm * ah / a};
+  }
+  to(m);
+}
+
 void ModalState::to(Move move) {
   const bool feeds = move.kind != Move::Kind::rapid;
+  if (corner.size_mm > 0) break_corner(move);
   if (++moves_ > moves_max_) return;
   if (!(std::abs(move.x_mm) <= kFarthest_mm && std::abs(move.z_mm) <= kFarthest_mm)) {
     unknown("coordinates beyond 100 m", "No machine goes there.");
@@ -118,6 +161,18 @@ void ModalState::thread(double x, double z, double lead_mm) {
     append({Move::Kind::thread, x, z}, lead_mm);
   x_mm = x;
   z_mm = z;
+}
+
+void ModalState::dwell(double min) {
+  if (min > 0 && min <= kLongestDwell_min && !program.runs.empty())
+    program.runs.back().wait_min += min;
+}
+
+void ModalState::dwell_turns(double turns) {
+  double n = S;
+  if (surface_speed && x_mm)
+    n = std::min(limit_rpm, units::spindle_rpm(S, std::max(2 * std::abs(*x_mm), 1e-3)));
+  if (n > 0) dwell(turns / n);
 }
 
 void ModalState::stop() {

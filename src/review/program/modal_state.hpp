@@ -13,6 +13,13 @@ namespace turnwright::review {
 /// Adds one to the list, which ends with the 200th.
 void list(std::vector<Unknown>& all, Unknown unknown);
 
+/// A chamfer or rounding between the last move and the next one.
+struct Corner {
+  bool rounded = false;    ///< by a radius; otherwise a chamfer,
+  bool by_length = false;  ///< of this length; otherwise of this length of each leg
+  double size_mm = 0;      ///< 0: none
+};
+
 /// What a control holds until a block changes it.
 class ModalState {
  public:
@@ -35,6 +42,7 @@ class ModalState {
   }
   std::optional<double> x_mm, z_mm;  ///< of the tip; none: not known
   NoseCompensation nose;
+  Corner corner;
   void lose_place() { x_mm.reset(), z_mm.reset(); }
 
   /// Moves the tip and appends the move to the runs.
@@ -45,6 +53,9 @@ class ModalState {
   /// A cut of a thread with a lead [mm].
   void thread(double x, double z, double lead_mm);
   void stop();
+  /// Waits at the place, minutes or turns of the spindle.
+  void dwell(double min);
+  void dwell_turns(double turns);
 
   std::size_t line = 0;
   void unknown(std::string what, std::string why);
@@ -56,6 +67,7 @@ class ModalState {
  private:
   toolpath::Step conditions(const toolpath::Move& move, double lead_mm);
   void append(const toolpath::Move& move, double lead_mm);
+  void break_corner(const toolpath::Move& next);
 
   std::size_t moves_ = 0, moves_max_;
 };

@@ -239,7 +239,8 @@ class Compensation {
     out_.named_tools = program.named_tools;
     out_.unknown = program.unknown;
     out_.assumed = program.assumed;
-    for (const auto& run : program.runs) out_.runs.push_back({run.step});
+    for (const auto& run : program.runs)
+      out_.runs.push_back({.step = run.step, .wait_min = run.wait_min});
   }
 
   TurningProgram result() {

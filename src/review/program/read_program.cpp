@@ -15,6 +15,8 @@
 #include "macro_statements.hpp"
 #include "modal_state.hpp"
 #include "o_words.hpp"
+#include "siemens_cycles.hpp"
+#include "siemens_statements.hpp"
 #include "turnwright/base/cancelled.hpp"
 #include "words.hpp"
 
@@ -31,7 +33,7 @@ constexpr double kLargestProgram = 9999;  // more digits of P are times
 bool system_a(Control c) { return c == Control::fanuc || c == Control::haas; }
 
 // G codes that change nothing here: planes, cancellations, exact stop, retract levels.
-constexpr std::array kIdle{4, 17, 18, 43, 49, 61, 64, 80, 291, 601, 602, 603};
+constexpr std::array kIdle{17, 18, 43, 49, 61, 64, 80, 291, 601, 602, 603};
 
 std::string lower(std::string text) {
   std::ranges::transform(text, text.begin(), [](unsigned char c) {
@@ -84,6 +86,9 @@ class ProgramReader {
                                                       : nullptr),
         macros_(has_macros(options.control) ? std::make_shared<MacroStatements>(flow)
                                             : nullptr),
+        siemens_(options.control == Control::siemens
+                     ? std::make_shared<SiemensStatements>(flow)
+                     : nullptr),
         control_(options.control),
         words_(gcode::dialect(options.control)),
         s_(options) {
@@ -124,8 +129,7 @@ class ProgramReader {
 
   void name_tools(std::string_view line) {
     if (line.find_first_of("(;") == line.npos) return;
-    for (const auto& c : block_of(line, control_ == Control::siemens).comments)
-      name_tool(c);
+    for (const auto& c : block_of(line, language()).comments) name_tool(c);
   }
 
   void line(std::size_t at) {
@@ -147,25 +151,52 @@ class ProgramReader {
 
   void execute(std::string_view text) {
     if (directs(text)) return;
-    auto block = block_of(text, control_ == Control::siemens);
+    set_place_variables();
+    auto block = block_of(text, language());
+    const auto call = siemens_ && SiemensCycles::knows(block.rest)
+                          ? std::exchange(block.rest, {})
+                          : std::string();
     if (unreadable(block)) return;
     if (block.deletable && !block.words.empty())
       s_.assume("Blocks with a slash are taken as executed.");
+    evaluate(block, flow_.parameters);
+    take(block);
+    if (!call.empty()) siemens_cycle(call);
+  }
+
+  Language language() const { return flow_.parameters.language(); }
+
+  void set_place_variables() {
     const double scale = s_.inch ? 25.4 : 1;
     if (s_.x_mm) flow_.parameters.x = *s_.x_mm / scale;
     if (s_.z_mm) flow_.parameters.z = *s_.z_mm / scale;
-    evaluate(block, flow_.parameters);
-    take(block);
+  }
+
+  void siemens_cycle(const std::string& call) {
+    SiemensCycles::take(s_, flow_.parameters, call, [this](std::string_view name) {
+      const auto lines = SiemensStatements::contour(flow_, name);
+      return lines ? contour_of_lines(lines->first, lines->second) : std::nullopt;
+    });
   }
 
   // A contour is one block after the other.
   bool directs(std::string_view text) {
+    if (siemens_) return siemens_directs(text);
     if (!o_words_ && !macros_) return false;
     if (!in_contour_) return o_words_ ? o_words_->direct(flow_) : macros_->direct(flow_);
     const auto word = keyword_of(statement_of(text)).first;
     if (word == "IF" || word == "WHILE" || word == "GOTO")
       throw NotFollowed("Branches and loops in the contour of a cycle are not followed.");
     return false;
+  }
+
+  bool siemens_directs(std::string_view text) {
+    if (!in_contour_) return siemens_->direct(flow_);
+    const auto word = name_at_front(siemens_statement_of(text)).first;
+    if (SiemensStatements::is_directing(text))
+      throw NotFollowed("Branches and loops in the contour of a cycle are not followed.");
+    if (word == "ret") ended_ = true;
+    return word == "ret" || word == "proc" || word == "def" || word == "extern";
   }
 
   bool unreadable(const Block& block) {
@@ -179,10 +210,11 @@ class ProgramReader {
   void take(const Block& block) {
     special_ = Special::none;
     nose_here_ = false;
+    corner_here_ = {};
     for (const auto& w : block.words)
       if (w.name == "G" && w.value) code(*w.value, block);
     for (const auto& w : block.words)
-      if (w.name != "G") word(w, block);
+      if (w.name != "G") word(w);
     tell_repeated(block);
     if (motion_ < 4) box_end_.reset();
     if (special_ == Special::done) return;
@@ -191,7 +223,7 @@ class ProgramReader {
     if (special_ == Special::pecks) return pecks_.take(s_, cycle_code_, block);
     if (special_ == Special::macro) return macro(block);
     if (special_ == Special::tap) return tap(block);
-    move(block);
+    special_ == Special::dwell ? dwell(block) : move(block);
     for (const auto& w : block.words)
       if (w.name == "M" && w.value) ends(static_cast<int>(*w.value), block);
   }
@@ -203,6 +235,8 @@ class ProgramReader {
       motion_ = g;
     else if ((g == 32 && system_a(control_)) || (g == 33 && !system_a(control_)))
       motion_ = g;
+    else if (g == 4)
+      special_ = Special::dwell;
     else if (g == 76)
       special_ = Special::thread_cycle;
     else if (taps(g))
@@ -312,9 +346,10 @@ class ProgramReader {
                radius_mm};
   }
 
-  void word(const Word& w, const Block& block) {
+  void word(const Word& w) {
     const auto value = w.value.value_or(0);
-    if (special_ == Special::macro) return;  // its arguments
+    if (special_ == Special::macro || (special_ == Special::dwell && w.name != "M"))
+      return;  // its arguments
     if (w.name == "F" && motion_ != 92 && special_ != Special::thread_cycle &&
         special_ != Special::tap)
       feed(value);
@@ -329,10 +364,10 @@ class ProgramReader {
       machine(static_cast<int>(value), w.text);
     else if (w.name == "DIAMON" || w.name == "DIAMOF")
       s_.diameter = w.name == "DIAMON";
-    else if (w.name == "SPOS")  // the spindle stops for a tap, which G331 turns
-      return;
-    else if (w.name.size() > 1 && !block.find("G"))
-      s_.unknown(w.text, "The word is not known.");
+    else if (w.name == "CHR" || w.name == "CHF" || w.name == "RND")
+      corner_here_ = {w.name == "RND", w.name == "CHF", s_.mm(value)};
+    else if (w.name.size() > 1 && special_ != Special::done && !moves_nothing(w.name))
+      strange_word(w);
     if (w.name.size() == 1 &&
         std::string_view("ABCVY").find(w.name) != std::string_view::npos)
       s_.unknown(w.text, "Only the axes X and Z are followed.");
@@ -341,6 +376,20 @@ class ProgramReader {
           w.text,
           "The letter belongs to threads; a number before it ends there, it has no "
           "exponent.");
+  }
+
+  // Words of several letters that leave the place as it is or belong to another one.
+  static bool moves_nothing(const std::string& name) {
+    constexpr std::string_view kIdleNames[] = {
+        "SPOS",   "CR",   "SF",     "SOFT",    "BRISK",  "FFWON",
+        "FFWOF",  "NORM", "KONT",   "CFC",     "CFIN",   "CFTCP",
+        "STOPRE", "SUPA", "COMPOF", "WALIMON", "FPRAOF", "SETMS"};
+    return std::ranges::find(kIdleNames, name) != std::end(kIdleNames);
+  }
+  void strange_word(const Word& w) {
+    s_.unknown(w.text, "The word is not known; the block may have moved the tool.");
+    s_.lose_place();
+    special_ = Special::done;
   }
 
   // Codes alone may stand twice in a block.
@@ -383,7 +432,9 @@ class ProgramReader {
   void ends(int m, const Block& block) {
     if (m == 0 || m == 1) s_.stop();
     if (m == 5) s_.turning = false;
-    if (m == 2 || m == 30) ended_ = true;
+    const bool siemens_end = siemens_ && (m == 2 || m == 17 || m == 30);
+    if (siemens_end && !in_contour_ && flow_.leave_program()) return;
+    if (m == 2 || m == 30 || siemens_end) ended_ = true;
     if (m < 97 || m > 99 || !(o_words_ || macros_)) return;
     if (in_contour_) throw NotFollowed("The contour of a cycle has no calls.");
     if (m == 99)
@@ -429,7 +480,10 @@ class ProgramReader {
       if (!v) return std::nullopt;
       if (words_.point && !block.find(name)->point)
         s_.assume("Numbers without a point are millimetres or inches, not steps.");
-      if (!s_.incremental) return s_.mm(*v) * scale;
+      using Meant = Word::Meant;
+      const auto meant = block.find(name)->meant;
+      if (meant == Meant::absolute || (meant == Meant::by_mode && !s_.incremental))
+        return s_.mm(*v) * scale;
       return now ? std::optional(*now + s_.mm(*v) * scale) : std::nullopt;
     };
     Target t{absolute("X", half, s_.x_mm), absolute("Z", 1, s_.z_mm)};
@@ -449,6 +503,11 @@ class ProgramReader {
     if (special_ == Special::limit || !names_a_place(block, motion_ == 2 || motion_ == 3))
       return;
     const auto t = target(block);
+    straight_or_arc(block, t);
+    s_.corner = corner_here_;
+  }
+
+  void straight_or_arc(const Block& block, const Target& t) {
     switch (motion_) {
       case 0:
         return s_.straight(Move::Kind::rapid, t.x, t.z);
@@ -473,6 +532,20 @@ class ProgramReader {
     if (motion_ == 32 || motion_ == 33)
       return thread(block, box_end_->h_mm, box_end_->z_mm);
     box(block, box_end_->h_mm, box_end_->z_mm);
+  }
+
+  // Seconds by F (Siemens, Okuma), X or U, P without a point in ms (Fanuc), or P (LinuxCNC);
+  // turns of the spindle by S (Siemens).
+  void dwell(const Block& block) {
+    double s = 0;
+    for (const char* name : {"F", "X", "U", "P"}) {
+      const auto* w = block.find(name);
+      if (!w || !w->value) continue;
+      const bool ms = *name == 'P' && control_ != Control::linuxcnc && !w->point;
+      s = *w->value / (ms ? 1000 : 1);
+    }
+    s_.dwell(s / 60);
+    if (control_ == Control::siemens) s_.dwell_turns(block.value("S").value_or(0));
   }
 
   // On the axis, with the spindle in step.  Siemens has a block for each way.
@@ -508,6 +581,13 @@ class ProgramReader {
     s_.thread(x, z, lead_mm_);
   }
 
+  // From the beginning, or absolute where it says so ("I=AC(30)").
+  double centre_word(const Block& block, const char* name, double from_mm, double scale) {
+    const auto* w = block.find(name);
+    const double value = w ? s_.mm(w->value.value_or(0)) : 0;
+    return w && w->meant == Word::Meant::absolute ? value * scale : from_mm + value;
+  }
+
   void arc(const Block& block, const Target& t) {
     if (!s_.x_mm || !s_.z_mm)
       return s_.straight(Move::Kind::feed, t.x, t.z);  // tells that it is not followed
@@ -515,11 +595,11 @@ class ProgramReader {
     const Point to{t.x.value_or(from.h_mm), t.z.value_or(from.z_mm)};
     const bool clockwise = motion_ == 2;
     std::optional<Point> centre;
-    if (const auto R = block.value("R"))
+    if (const auto R = block.value(siemens_ ? "CR" : "R"))
       centre = centre_of(from, to, s_.mm(*R), clockwise);
     else
-      centre = Point{from.h_mm + s_.mm(block.value("I").value_or(0)),
-                     from.z_mm + s_.mm(block.value("K").value_or(0))};
+      centre = Point{centre_word(block, "I", from.h_mm, s_.diameter ? 0.5 : 1),
+                     centre_word(block, "K", from.z_mm, 1)};
     const auto radius = [&](const Point& p) {
       return std::hypot(p.h_mm - centre->h_mm, p.z_mm - centre->z_mm);
     };
@@ -543,23 +623,44 @@ class ProgramReader {
   // The moves of the blocks from N = P to N = Q, as if they followed.
   std::optional<Contour> contour_between(double P, double Q) {
     const auto first = flow_.block(P), last = flow_.block(Q);
-    if (in_contour_ || !first || !last || *last < *first) return std::nullopt;
+    if (!first || !last || *last < *first) return std::nullopt;
+    return contour_of_lines(*first, *last);
+  }
+
+  std::optional<Contour> contour_of_lines(std::size_t first, std::size_t last) {
+    if (in_contour_) return std::nullopt;
     auto kept = std::exchange(s_.program, {});
     ProgramReader inner(*this);
     s_.program = std::move(kept);
     inner.in_contour_ = true;
     inner.s_.turning = true;
-    for (auto i = *first; i <= *last && !flow_.spent() && !inner.s_.full(); ++i)
+    if (siemens_) {  // feeds of CYCLE95 are its own, or those of the contour's words
+      inner.s_.F_line = 0;
+      if (!(inner.s_.F > 0)) inner.s_.F = 1;
+    }
+    for (auto i = first; i <= last && !inner.ended_ && !flow_.spent() && !inner.s_.full();
+         ++i)
       inner.line(i);
     for (auto& u : inner.s_.program.unknown) s_.unknown(u.what, u.why);
     return Contour{std::move(inner.s_.program.runs)};
   }
 
-  enum class Special { none, done, limit, thread_cycle, contour, pecks, macro, tap };
+  enum class Special {
+    none,
+    done,
+    limit,
+    dwell,
+    thread_cycle,
+    contour,
+    pecks,
+    macro,
+    tap
+  };
 
   Flow& flow_;
   std::shared_ptr<const OWords> o_words_;
   std::shared_ptr<const MacroStatements> macros_;
+  std::shared_ptr<const SiemensStatements> siemens_;
   Control control_;
   const gcode::Dialect& words_;
   ModalState s_;
@@ -573,6 +674,7 @@ class ProgramReader {
   std::optional<Point> box_end_;  // of the cycle before
   bool ended_ = false, in_contour_ = false;
   bool nose_here_ = false;  // G40 to G42 in the block
+  Corner corner_here_;
   int cycle_code_ = 0;
 };
 
