@@ -78,7 +78,7 @@ struct ReadOptions {
 ///                     G75, in two blocks or one
 ///     fanuc-b         G76
 ///     linuxcnc        G76
-///     okuma           G33 comes back to where it began
+///     okuma           G33 comes back to where it began; G85 to G87 of LAP, G74
 ///     siemens         CYCLE81 to 85, 840, 95, 97
 ///
 /// Threads of a cycle become plain moves, the k-th cut of a depth
@@ -87,7 +87,7 @@ struct ReadOptions {
 ///
 /// Variables, expressions, subprograms, branches and loops are executed: LinuxCNC's O words
 /// and #<name>, Fanuc's macro B, M97, M98, M99 and G65, Siemens' R and DEF, IF to UNTIL,
-/// labels and programs by name; at most 200,000 lines beyond each
+/// labels and programs by name, Okuma's V, IF, GOTO and CALL; at most 200,000 lines beyond each
 /// once, and calls ten deep.
 ///
 /// Reference returns move the tool to a place that is not known.  Everything else is listed

@@ -162,35 +162,39 @@ std::vector<Point> beside(const std::vector<Point>& contour, double away, double
   return all;
 }
 
-// The contour's moves as feeds, shifted.
-void along(ModalState& s, const Contour& contour, double dx, double dz) {
-  for (const auto& run : contour.runs)
-    for (auto m : run.moves) {
-      if (m.to.kind == Kind::rapid) m.to.kind = Kind::feed;
-      m.to.x_mm += dx;
-      m.to.z_mm += dz;
-      m.to.centre.h_mm += dx;
-      m.to.centre.z_mm += dz;
-      s.to(m.to);
-    }
+void shift(toolpath::Move& m, double dx, double dz) {
+  m.x_mm += dx;
+  m.z_mm += dz;
+  m.centre.h_mm += dx;
+  m.centre.z_mm += dz;
 }
 
 }  // namespace
 
+void along(ModalState& s, const Contour& contour, double dx, double dz) {
+  for (const auto& run : contour.runs)
+    for (auto m : run.moves) {
+      if (m.to.kind == Kind::rapid) m.to.kind = Kind::feed;
+      shift(m.to, dx, dz);
+      s.to(m.to);
+    }
+}
+
 void rough(ModalState& s, const Contour& contour, const ContourCycle& cycle,
            RoughingAlong direction) {
-  const auto name = direction == RoughingAlong::z ? "G71" : "G72";
   const auto all = points(contour, cycle);
   if (!s.x_mm || !s.z_mm || all.size() < 2 || !(cycle.depth_mm > 0))
-    return s.unknown(name, "Its contour, its depth or the tool's place is not known.");
+    return s.unknown(cycle.name,
+                     "Its contour, its depth or the tool's place is not known.");
   Levels levels(s, direction, all);
   if (!levels.steady())
-    return s.unknown(name, "Only contours that go one way in X and in Z are followed.");
+    return s.unknown(cycle.name,
+                     "Only contours that go one way in X and in Z are followed.");
   if (!levels.cut(cycle.depth_mm, cycle.retract_mm))
-    s.unknown(name, "It has more than 500 passes.");
+    s.unknown(cycle.name, "It has more than 500 passes.");
   levels.begin_contour();
   along(s, contour, cycle.left_x_mm, cycle.left_z_mm);
-  levels.back();
+  if (cycle.comes_back) levels.back();
 }
 
 void remove_stock(ModalState& s, const Contour& contour, const StockRemoval& c,
@@ -277,25 +281,31 @@ void repeat_pattern(ModalState& s, const Contour& contour, const ContourCycle& c
   }
 }
 
-void finish(ModalState& s, const Contour& contour) {
-  if (!s.x_mm || !s.z_mm)
-    return s.unknown("G70 from a place that is not known",
-                     "X or Z was not given before it.");
-  const double x0 = *s.x_mm, z0 = *s.z_mm, F = s.F;
+void follow_contour(ModalState& s, const Contour& contour, double dx, double dz) {
+  const double F = s.F;
   const auto F_line = s.F_line;
   const auto nose = s.nose;
   for (const auto& run : contour.runs) {
     const bool own = run.step.f_mm_rev > 0 && s.per_revolution;
     if (own) s.F = run.step.f_mm_rev;
-    for (const auto& m : run.moves) {
+    for (auto m : run.moves) {
       if (own) s.F_line = m.words.F_line;
       s.nose = m.nose;
+      shift(m.to, dx, dz);
       s.to(m.to);
     }
   }
   s.nose = nose;
   s.F = F;
   s.F_line = F_line;
+}
+
+void finish(ModalState& s, const Contour& contour) {
+  if (!s.x_mm || !s.z_mm)
+    return s.unknown("G70 from a place that is not known",
+                     "X or Z was not given before it.");
+  const double x0 = *s.x_mm, z0 = *s.z_mm;
+  follow_contour(s, contour, 0, 0);
   s.straight(Kind::rapid, x0, *s.z_mm);
   s.straight(Kind::rapid, x0, z0);
 }
@@ -339,6 +349,7 @@ std::optional<double> ContourCycleReader::take(ModalState& s, gcode::Control con
     cycle_.depth_mm = control == gcode::Control::haas ? s.mm(*D->value)
                                                       : s.steps_mm(*D->value, D->point);
   }
+  cycle_.name = code == 71 ? "G71" : "G72";
   cycle_.left_x_mm = s.mm(block.value("U").value_or(0)) / 2;
   cycle_.left_z_mm = s.mm(block.value("W").value_or(0));
   // Controls rough without compensation.

@@ -16,10 +16,12 @@ struct Contour {
 
 /// What of a contour's cycle the moves follow from.
 struct ContourCycle {
+  const char* name = "G71";
   double depth_mm = 0, retract_mm = 0;    ///< of each pass, on the radius
   double left_x_mm = 0, left_z_mm = 0;    ///< for finishing: on the radius, < 0 in bores
   double shift_x_mm = 0, shift_z_mm = 0;  ///< of the first pass of G73, on the radius
   double passes = 0;                      ///< of G73
+  bool comes_back = true;                 ///< to where it began
 };
 
 /// Passes from where the tool stands to the contour with what is left on it, each with a
@@ -57,6 +59,12 @@ void repeat_pattern(ModalState& s, const Contour& contour, const ContourCycle& c
 
 /// Along the contour and back to where the tool stood (G70).
 void finish(ModalState& s, const Contour& contour);
+
+/// The contour's moves as feeds, shifted, at the feed in force.
+void along(ModalState& s, const Contour& contour, double dx_mm, double dz_mm);
+
+/// The contour's moves, shifted, with the feeds and the compensation of its blocks.
+void follow_contour(ModalState& s, const Contour& contour, double dx_mm, double dz_mm);
 
 /// G70 to G73 in two blocks, of which the first sets depths and passes, or in one:
 ///

@@ -22,7 +22,7 @@ void tap_cycle(ModalState& s, double from_z_mm, double to_z_mm, double lead_mm);
 /// stroke, and away.
 struct DrillCycle {
   double from_z_mm = 0, away_z_mm = 0;
-  std::vector<double> strokes_z_mm;  ///< their ends, the last is the bottom
+  std::vector<double> strokes_z_mm = {};  ///< their ends, the last is the bottom
   /// After each stroke but the last: out to where it began and back to this distance before
   /// the depth reached, or back by a retract alone.
   bool clears = true;

@@ -28,24 +28,24 @@ struct Operator {
 };
 // Longer names before those that they begin with.
 constexpr Operator kOperators[] = {
-    {"**", {5, 0, 0, 0}},   {"*", {4, 4, 9, 0}},     {"/", {4, 4, 9, 0}},
-    {"DIV", {0, 0, 9, 0}},  {"MOD", {4, 4, 9, 0}},   {"+", {3, 3, 8, 0}},
-    {"-", {3, 3, 8, 0}},    {"B_AND", {0, 0, 7, 0}}, {"B_XOR", {0, 0, 6, 0}},
-    {"B_OR", {0, 0, 5, 0}}, {"AND", {1, 4, 4, 0}},   {"XOR", {1, 3, 3, 0}},
-    {"OR", {1, 3, 2, 0}},   {"EQ", {2, 1, 0, 0}},    {"NE", {2, 1, 0, 0}},
-    {"GT", {2, 1, 0, 0}},   {"GE", {2, 1, 0, 0}},    {"LT", {2, 1, 0, 0}},
-    {"LE", {2, 1, 0, 0}},   {"==", {0, 0, 1, 0}},    {"<>", {0, 0, 1, 0}},
+    {"**", {5, 0, 0, 0}},   {"*", {4, 4, 9, 4}},     {"/", {4, 4, 9, 4}},
+    {"DIV", {0, 0, 9, 0}},  {"MOD", {4, 4, 9, 0}},   {"+", {3, 3, 8, 3}},
+    {"-", {3, 3, 8, 3}},    {"B_AND", {0, 0, 7, 0}}, {"B_XOR", {0, 0, 6, 0}},
+    {"B_OR", {0, 0, 5, 0}}, {"AND", {1, 4, 4, 1}},   {"XOR", {1, 3, 3, 0}},
+    {"OR", {1, 3, 2, 1}},   {"EQ", {2, 1, 0, 2}},    {"NE", {2, 1, 0, 2}},
+    {"GT", {2, 1, 0, 2}},   {"GE", {2, 1, 0, 2}},    {"LT", {2, 1, 0, 2}},
+    {"LE", {2, 1, 0, 2}},   {"==", {0, 0, 1, 0}},    {"<>", {0, 0, 1, 0}},
     {">=", {0, 0, 1, 0}},   {"<=", {0, 0, 1, 0}},    {">", {0, 0, 1, 0}},
-    {"<", {0, 0, 1, 0}}};
+    {"<", {0, 0, 1, 0}},    {"EOR", {0, 0, 0, 1}}};
 constexpr int kLowest = 1;
 constexpr std::string_view kBits = "BITS ";  // before an operator on them
 
 // What an operator does, whatever its name.
 std::string_view meaning_of(std::string_view name) {
   constexpr std::pair<std::string_view, std::string_view> kSame[] = {
-      {"==", "EQ"},          {"<>", "NE"},        {">=", "GE"},
-      {"<=", "LE"},          {">", "GT"},         {"<", "LT"},
-      {"B_AND", "BITS AND"}, {"B_OR", "BITS OR"}, {"B_XOR", "BITS XOR"}};
+      {"==", "EQ"},        {"<>", "NE"},         {">=", "GE"},   {"<=", "LE"},
+      {">", "GT"},         {"<", "LT"},          {"EOR", "XOR"}, {"B_AND", "BITS AND"},
+      {"B_OR", "BITS OR"}, {"B_XOR", "BITS XOR"}};
   for (const auto& [own, meaning] : kSame)
     if (own == name) return meaning;
   return name;
@@ -54,40 +54,44 @@ std::string_view meaning_of(std::string_view name) {
 // Functions of one value and the languages that have them.
 struct Function {
   std::string_view name;
-  bool linuxcnc, macro_b, siemens;
+  bool linuxcnc, macro_b, siemens, okuma;
   double (*value)(double);
 };
 double degrees(double rad) { return rad / kDeg; }
 constexpr Function kFunctions[] = {
-    {"ABS", true, true, true, [](double a) { return std::abs(a); }},
-    {"ACOS", true, true, true, [](double a) { return degrees(std::acos(a)); }},
-    {"ASIN", true, true, true, [](double a) { return degrees(std::asin(a)); }},
-    {"COS", true, true, true, [](double a) { return std::cos(a * kDeg); }},
-    {"SIN", true, true, true, [](double a) { return std::sin(a * kDeg); }},
-    {"TAN", true, true, true, [](double a) { return std::tan(a * kDeg); }},
-    {"EXP", true, true, true, [](double a) { return std::exp(a); }},
-    {"LN", true, true, true, [](double a) { return std::log(a); }},
-    {"SQRT", true, true, true, [](double a) { return std::sqrt(a); }},
-    {"SQR", false, true, false, [](double a) { return std::sqrt(a); }},
-    {"POT", false, false, true, [](double a) { return a * a; }},
-    {"ROUND", true, true, true, [](double a) { return std::round(a); }},
-    {"RND", false, true, false, [](double a) { return std::round(a); }},
-    {"FIX", true, false, false, [](double a) { return std::floor(a); }},
-    {"FUP", true, false, false, [](double a) { return std::ceil(a); }},
-    {"FIX", false, true, false, [](double a) { return std::trunc(a); }},
-    {"FUP", false, true, false,
+    {"ABS", true, true, true, true, [](double a) { return std::abs(a); }},
+    {"ACOS", true, true, true, true, [](double a) { return degrees(std::acos(a)); }},
+    {"ASIN", true, true, true, true, [](double a) { return degrees(std::asin(a)); }},
+    {"COS", true, true, true, true, [](double a) { return std::cos(a * kDeg); }},
+    {"SIN", true, true, true, true, [](double a) { return std::sin(a * kDeg); }},
+    {"TAN", true, true, true, true, [](double a) { return std::tan(a * kDeg); }},
+    {"EXP", true, true, true, false, [](double a) { return std::exp(a); }},
+    {"LN", true, true, true, false, [](double a) { return std::log(a); }},
+    {"SQRT", true, true, true, true, [](double a) { return std::sqrt(a); }},
+    {"ATAN", false, false, false, true, [](double a) { return degrees(std::atan(a)); }},
+    {"SQR", false, true, false, false, [](double a) { return std::sqrt(a); }},
+    {"POT", false, false, true, false, [](double a) { return a * a; }},
+    {"ROUND", true, true, true, true, [](double a) { return std::round(a); }},
+    {"RND", false, true, false, false, [](double a) { return std::round(a); }},
+    {"FIX", true, false, false, false, [](double a) { return std::floor(a); }},
+    {"FUP", true, false, false, false, [](double a) { return std::ceil(a); }},
+    {"FIX", false, true, false, true, [](double a) { return std::trunc(a); }},
+    {"FUP", false, true, false, true,
      [](double a) { return a < 0 ? std::floor(a) : std::ceil(a); }},
-    {"TRUNC", false, false, true, [](double a) { return std::trunc(a); }}};
+    {"TRUNC", false, false, true, false, [](double a) { return std::trunc(a); }}};
 
 double whole_pair(double a, double b, std::string_view name) {
   const auto x = std::llround(a), y = std::llround(b);
   return static_cast<double>(name == "AND" ? x & y : name == "OR" ? x | y : x ^ y);
 }
 
+// The letter before the number of a variable without a name.
+char letter_of(Language l) { return l == Language::okuma ? 'v' : 'r'; }
+
 // Of "r12".
-std::optional<double> number_of_r(std::string_view name) {
+std::optional<double> number_behind(char letter, std::string_view name) {
   unsigned n = 0;
-  if (!name.starts_with('r')) return std::nullopt;
+  if (!name.starts_with(letter)) return std::nullopt;
   const auto [end, error] =
       std::from_chars(name.data() + 1, name.data() + name.size(), n);
   if (error != std::errc() || end != name.data() + name.size()) return std::nullopt;
@@ -104,7 +108,8 @@ class Expression {
         language_(parameters.language()),
         linuxcnc_(language_ == Language::linuxcnc),
         opening_(language_ == Language::siemens ? '(' : '['),
-        closing_(language_ == Language::siemens ? ')' : ']') {}
+        closing_(language_ == Language::siemens ? ')' : ']'),
+        letter_(letter_of(language_)) {}
 
   Value whole() {
     const auto value = sum(kLowest);
@@ -218,7 +223,7 @@ class Expression {
     if (takes('-')) return -value().value_or(0);
     if (takes('+')) return value();
     if (c == opening_) return brackets();
-    if (language_ == Language::siemens) return is_name(c) ? named() : number();
+    if (has_names(language_)) return is_name(c) ? named() : number();
     if (takes('#')) return parameter();
     return is_letter(c) ? function() : number();
   }
@@ -248,7 +253,9 @@ class Expression {
   static bool is_name(char c) { return is_letter(c) || c == '_' || c == '$'; }
   std::string name_here() {
     std::string all;
-    while (at_ < text_.size() && (is_name(text_[at_]) || is_digit(text_[at_])))
+    const auto numbered = [&] { return all.size() > 1 && is_digit(all[1]); };
+    while (at_ < text_.size() &&
+           (is_digit(text_[at_]) || (is_name(text_[at_]) && !numbered())))
       all += small(text_[at_++]);
     return all;
   }
@@ -260,19 +267,24 @@ class Expression {
       return -1 - static_cast<double>(std::llround(value().value_or(0)));
     if (name == "true" || name == "false") return truth(name == "true");
     if (name == "$pi") return std::numbers::pi;
-    if (next() == opening_) return function_of(name);
-    if (const auto r = number_of_r(name)) return parameters_.at(*r);
+    const bool indexed = name.size() == 1 && name.front() == letter_;
+    if (next() == opening_ && !indexed) return function_of(name);
+    if (const auto n = number_behind(letter_, name)) return parameters_.at(*n);
     if (next() != '[') return parameters_.at(name);
     const double index = brackets('[', ']');
-    return name == "r" ? parameters_.at(index)
-                       : parameters_.at(fmt::format("{}[{:.0f}]", name, index));
+    return indexed ? parameters_.at(index)
+                   : parameters_.at(fmt::format("{}[{:.0f}]", name, index));
   }
   double function_of(const std::string& small_name) {
     std::string name;
     for (const char c : small_name) name += capital(c);
     const auto all = arguments();
     if (all.size() == 1) return checked(of_one(name, all[0]));
+    if (language_ == Language::okuma && name == "MOD" && all.size() == 2)
+      return remainder(all[0], all[1]);
     if (name == "ATAN2" && all.size() == 2) return std::atan2(all[0], all[1]) / kDeg;
+    if (language_ == Language::okuma)
+      throw NotFollowed(fmt::format("The function {} is not known.", name));
     if (name == "MINVAL" && all.size() == 2) return std::min(all[0], all[1]);
     if (name == "MAXVAL" && all.size() == 2) return std::max(all[0], all[1]);
     if (name == "BOUND" && all.size() == 3 && all[0] <= all[1])
@@ -334,6 +346,7 @@ class Expression {
     for (const auto& f : kFunctions)
       if (f.name == name && (linuxcnc_                        ? f.linuxcnc
                              : language_ == Language::siemens ? f.siemens
+                             : language_ == Language::okuma   ? f.okuma
                                                               : f.macro_b))
         return f.value(a);
     throw NotFollowed(fmt::format("The function {} is not known.", name));
@@ -343,7 +356,7 @@ class Expression {
   const Parameters& parameters_;
   Language language_;
   bool linuxcnc_;
-  char opening_, closing_;
+  char opening_, closing_, letter_;
   std::size_t at_ = 0;
   int depth_ = 0;
 };
@@ -371,21 +384,27 @@ void set_named(Parameters& parameters, std::string_view parameter, double value)
   std::optional<double> number;
   if (!index.empty())
     number = value_of(index.substr(1, index.size() - 2), parameters).value_or(0);
-  if (name == "r" && number) return parameters.set(*number, value);
-  if (const auto r = number_of_r(name)) return parameters.set(*r, value);
-  if (!parameters.declared(name))
+  const char letter = letter_of(parameters.language());
+  if (name.size() == 1 && name.front() == letter && number)
+    return parameters.set(*number, value);
+  if (const auto n = number_behind(letter, name)) return parameters.set(*n, value);
+  if (parameters.language() == Language::siemens && !parameters.declared(name))
     throw NotFollowed(fmt::format("{} is not declared in the program.", parameter));
   parameters.set(number ? fmt::format("{}[{:.0f}]", name, *number) : name, value);
 }
 
-// Words of declared names set them.
+// Words of declared names set them; of Okuma those in blocks without other words.
 void names_become_assignments(Block& block, const Parameters& parameters) {
+  const auto equals = [](const Word& w) {
+    return w.name.size() > 1 && w.text.find('=') != w.text.npos;
+  };
+  const bool okuma = parameters.language() == Language::okuma;
+  const auto other = [&](const Word& w) { return w.name != "N" && !equals(w); };
+  if (okuma && std::ranges::any_of(block.words, other)) return;
   std::erase_if(block.words, [&](const Word& w) {
     std::string name;
     for (const char c : w.name) name += small(c);
-    if (w.name.size() < 2 || w.text.find('=') == w.text.npos ||
-        !parameters.declared(name))
-      return false;
+    if (!equals(w) || (!okuma && !parameters.declared(name))) return false;
     block.assignments.push_back({name, w.text.substr(w.text.find('=') + 1)});
     return true;
   });

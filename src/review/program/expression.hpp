@@ -4,12 +4,13 @@
 #include "parameters.hpp"
 #include "words.hpp"
 
-/// Expressions in programs, as LinuxCNC, Fanuc and Siemens reckon.
+/// Expressions in programs, as LinuxCNC, Fanuc, Siemens and Okuma reckon.
 ///
 ///     LinuxCNC   **;  * / MOD;  + -;  EQ NE GT GE LT LE;  AND OR XOR, of truths
 ///     Fanuc      * / AND MOD;  + - OR XOR, of whole numbers;  EQ NE GT GE LT LE
 ///     Siemens    NOT B_NOT;  * / DIV MOD;  + -;  B_AND;  B_XOR;  B_OR;  AND;  XOR;
 ///                OR, of truths;  == <> > < >= <=
+///     Okuma      * /;  + -;  EQ NE GT GE LT LE;  AND OR EOR, of truths
 ///
 /// Operators of one rank go from left to right; a sign belongs to the value behind it, so
 /// that -2**2 = 4.  Functions take brackets: ABS ACOS ASIN ATAN COS EXP FIX FUP LN ROUND
@@ -22,8 +23,10 @@
 /// Siemens' functions take ( ): ABS ACOS ASIN COS EXP LN POT (the square) ROUND SIN SQRT
 /// TAN TRUNC, ATAN2(y,x), MINVAL(a,b), MAXVAL(a,b), BOUND(least,most,a); it has TRUE, FALSE
 /// and numbers such as 10EX-5, and compares by shares of the values, here 1e-12.
-/// Source: [LinuxCNC], which linuxcnc_test runs; of Fanuc [gEdit], of Siemens [Siemens PGA]
-/// in docs/bibliography.md.
+/// Okuma's take [ ]: ABS ACOS ASIN ATAN COS FIX FUP ROUND SIN SQRT TAN, ATAN2[y,x],
+/// MOD[a,b].
+/// Source: [LinuxCNC], which linuxcnc_test runs; of Fanuc [gEdit], of Siemens [Siemens PGA],
+/// of Okuma [Okuma user task] in docs/bibliography.md; Okuma's ranks are taken as usual.
 namespace turnwright::review {
 
 /// The value of an expression; vacant only for a vacant variable alone.

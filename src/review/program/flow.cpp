@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 #include "expression.hpp"
 #include "letters.hpp"
@@ -22,6 +23,8 @@ std::string_view without_blanks(std::string_view text) {
   return text;
 }
 
+bool is_comment(char c) { return c == '(' || c == ';'; }
+
 // A letter's whole number at the front of a text as a label, and what follows.
 std::optional<std::pair<std::string, std::string_view>> numbered(std::string_view text,
                                                                  char letter) {
@@ -35,12 +38,23 @@ std::optional<std::pair<std::string, std::string_view>> numbered(std::string_vie
   return std::pair{std::string(digits), without_blanks(text.substr(end))};
 }
 
+// The same of a letter before a number or a name: "NLAP1", "OSUB", "N10G0".
+std::optional<std::pair<std::string, std::string_view>> labelled(std::string_view text,
+                                                                 char letter) {
+  if (auto number = numbered(text, letter)) return number;
+  if (text.size() < 2 || capital(text[0]) != letter || !is_letter(text[1]))
+    return std::nullopt;
+  const auto [name, rest] = name_at_front(text.substr(1));
+  if (rest.data() == text.data() + 1 + name.size() && !rest.empty() &&
+      !is_comment(rest[0]))
+    return std::nullopt;
+  return std::pair{name, rest};
+}
+
 std::string_view without_slash(std::string_view line) {
   line = without_blanks(line);
   return without_blanks(line.substr(line.starts_with('/') ? 1 : 0));
 }
-
-bool is_comment(char c) { return c == '(' || c == ';'; }
 
 // "MARK:" at the front of a text, and what follows.
 std::optional<std::pair<std::string, std::string_view>> marked(std::string_view text) {
@@ -84,6 +98,25 @@ std::pair<std::string, std::string_view> name_at_front(std::string_view text) {
   return {name, without_blanks(text.substr(end))};
 }
 
+std::string label_at_front(std::string_view text, Language language) {
+  text = without_blanks(text);
+  for (const char letter : {'N', 'O'}) {
+    auto label =
+        language == Language::okuma ? labelled(text, letter) : numbered(text, letter);
+    if (label) return std::move(label->first);
+  }
+  return name_at_front(text).first;
+}
+
+std::string_view okuma_statement_of(std::string_view line) {
+  line = without_slash(line);
+  if (const auto N = labelled(line, 'N')) line = N->second;
+  const auto front = name_at_front(line);
+  if (front.first == "noex") line = front.second;
+  const auto end = std::ranges::find_if(line, is_comment) - line.begin();
+  return without_blanks(line.substr(0, static_cast<std::size_t>(end)));
+}
+
 std::string_view siemens_statement_of(std::string_view line) {
   line = without_blanks(without_siemens_comment(without_slash(line)));
   if (const auto N = numbered(line, 'N')) line = N->second;
@@ -113,7 +146,8 @@ Labels::Labels(const std::vector<std::string_view>& lines, Language language)
   bool blocks_before = false;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const auto line = without_slash(lines[i]);
-    const auto N = numbered(line, 'N');
+    const bool okuma = language == Language::okuma;
+    const auto N = okuma ? labelled(line, 'N') : numbered(line, 'N');
     if (N) blocks_.emplace_back(N->first, i);
     std::string begins;
     if (language == Language::siemens) {
@@ -121,7 +155,7 @@ Labels::Labels(const std::vector<std::string_view>& lines, Language language)
       if (const auto mark = marked(N ? N->second : line))
         blocks_.emplace_back(mark->first, i);
     } else {
-      auto O = numbered(line, 'O');
+      auto O = okuma ? labelled(line, 'O') : numbered(line, 'O');
       if (!O) O = numbered(line, ':');
       if (O && (O->second.empty() || is_comment(O->second.front()))) begins = O->first;
     }

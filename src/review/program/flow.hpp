@@ -17,8 +17,8 @@ namespace turnwright::review {
 std::string label_of(double number);
 
 /// Where the programs and the labelled blocks of a text begin.  Programs begin with "O1234"
-/// or ":1234", of Siemens with "%_N_SHAFT_MPF" or "PROC SHAFT"; blocks have a number,
-/// "N10", of Siemens also a name, "MARK:".  Numbers are names without zeros in front.
+/// or ":1234", of Okuma also "OSUB", of Siemens with "%_N_SHAFT_MPF" or "PROC SHAFT"; blocks have a number,
+/// "N10", of Okuma and Siemens also a name, "NLAP1" and "MARK:".  Numbers are names without zeros in front.
 class Labels {
  public:
   Labels(const std::vector<std::string_view>& lines, Language language);
@@ -140,6 +140,11 @@ class Flow {
 std::string_view statement_of(std::string_view line);
 /// The same of Siemens, whose comments begin with ";" and whose blocks may have a label.
 std::string_view siemens_statement_of(std::string_view line);
+/// The same of Okuma, whose blocks may have a name and whose variables NOEX before them.
+std::string_view okuma_statement_of(std::string_view line);
+/// The label that stands at the front of a text: "N10" and "O10" as the number, of Okuma
+/// names without their first letter.
+std::string label_at_front(std::string_view text, Language language);
 /// The name at the front of a text, small, and what follows it: letters, digits and "_".
 std::pair<std::string, std::string_view> name_at_front(std::string_view text);
 /// The word of letters at the front of a text, in capitals, and what follows it.

@@ -10,12 +10,14 @@ namespace {
 
 constexpr int kLinuxCncUsers = 5000, kLargestNumber = 99'999;
 constexpr int kFanucCommon = 100, kFanucCommonEnd = 999;
-constexpr int kSiemensEnd = 999;
+constexpr int kSiemensEnd = 999, kOkumaEnd = 200;
 constexpr int kX = 5420, kZ = 5422;
 constexpr double kWhole = 1e-4;  // LinuxCNC's and ours
 constexpr std::size_t kNames = 1000;
 
-std::string_view letter_of(Language l) { return l == Language::siemens ? "R" : "#"; }
+std::string_view own_letter(Language l) {
+  return l == Language::siemens ? "R" : l == Language::okuma ? "V" : "#";
+}
 
 // The name of an array without its index.
 std::string array_of(const std::string& name) { return name.substr(0, name.find('[')); }
@@ -44,7 +46,7 @@ int Parameters::number_of(double number) const {
   const double whole = std::round(number);
   if (!(std::abs(number - whole) <= kWhole && whole >= 0 && whole <= kLargestNumber))
     throw NotFollowed(
-        fmt::format("There is no variable {}{:g}.", letter_of(language_), number));
+        fmt::format("There is no variable {}{:g}.", own_letter(language_), number));
   return static_cast<int>(whole);
 }
 
@@ -62,11 +64,11 @@ Value Parameters::at(double number) const {
   if (linuxcnc() && n > 0 && n <= kLinuxCncUsers) return 0;
   throw NotFollowed(
       fmt::format("The value of {}{} is the control's, the program does not tell it.",
-                  letter_of(language_), n));
+                  own_letter(language_), n));
 }
 
 std::optional<double> Parameters::find(const std::string& name) const {
-  const auto& all = linuxcnc() && name.starts_with('_') ? named_ : locals_.back().named;
+  const auto& all = common(name) ? named_ : locals_.back().named;
   const auto found = all.find(name);
   if (found != all.end()) return found->second;
   if (declared(name)) return 0;
@@ -94,7 +96,18 @@ bool Parameters::of_program(int n) const {
     case Language::okuma:
       break;
   }
-  return false;
+  return n > 0 && n <= kOkumaEnd;
+}
+
+// Whether a name is of all programs: LinuxCNC's with "_", Okuma's VC with a number.
+bool Parameters::common(const std::string& name) const {
+  if (linuxcnc()) return name.starts_with('_');
+  if (language_ != Language::okuma || !name.starts_with('v')) return false;
+  const bool users = name.size() > 2 && name.starts_with("vc") &&
+                     name.find_first_not_of("0123456789", 2) == name.npos;
+  if (!users)
+    throw NotFollowed(fmt::format("{} is a variable of the control's own.", name));
+  return true;
 }
 
 void Parameters::set(double number, Value value) {
@@ -105,12 +118,12 @@ void Parameters::set(double number, Value value) {
   }
   if (!of_program(n))
     throw NotFollowed(fmt::format("What the control does when {}{} is set is not known.",
-                                  letter_of(language_), n));
+                                  own_letter(language_), n));
   numbered_[n] = value;
 }
 
 void Parameters::set(const std::string& name, double value) {
-  auto& all = linuxcnc() && name.starts_with('_') ? named_ : locals_.back().named;
+  auto& all = common(name) ? named_ : locals_.back().named;
   if (all.size() >= kNames && !all.contains(name))
     throw NotFollowed("The program has more than 1000 named variables.");
   const auto declared = locals_.back().declared.find(array_of(name));

@@ -24,7 +24,9 @@ using Value = std::optional<double>;
 enum class Language { linuxcnc, macro_b, siemens, okuma };
 Language language_of(gcode::Control control);
 /// Whether words may have names of several letters, and expressions need no brackets.
-inline bool has_names(Language l) { return l == Language::siemens; }
+inline bool has_names(Language l) {
+  return l == Language::siemens || l == Language::okuma;
+}
 
 /// The variables that a program has:
 ///
@@ -36,11 +38,13 @@ inline bool has_names(Language l) { return l == Language::siemens; }
 ///                #100 to #999              of all
 ///     Siemens    names of DEF and PROC     of each subprogram
 ///                R0 to R999                of all
+///     Okuma      names                     of each subprogram, from where it sets them
+///                V1 to V200, VC1 ..        of all
 ///
 /// Those of a subroutine are 0 (LinuxCNC, Siemens) or vacant (Fanuc) at first.  What the
 /// control keeps beyond a program (LinuxCNC's from #5001, Fanuc's common ones, R of
-/// Siemens, system variables) is known only after the program has set it.
-/// Source: [LinuxCNC], [gEdit] and [Siemens PGA] in docs/bibliography.md.
+/// Siemens, V of Okuma, system variables) is known only after the program has set it.
+/// Source: [LinuxCNC], [gEdit], [Siemens PGA] and [Okuma user task] in docs/bibliography.md.
 class Parameters {
  public:
   explicit Parameters(gcode::Control control) : language_(language_of(control)) {}
@@ -86,6 +90,7 @@ class Parameters {
     return has_locals() && n >= 1 && n <= (linuxcnc() ? 30 : kLocals);
   }
   bool of_program(int n) const;
+  bool common(const std::string& name) const;
 
   Language language_;
   std::vector<Locals> locals_ = {Locals()}, first_ = {Locals()};

@@ -15,6 +15,8 @@
 #include "macro_statements.hpp"
 #include "modal_state.hpp"
 #include "o_words.hpp"
+#include "okuma_lap.hpp"
+#include "okuma_statements.hpp"
 #include "siemens_cycles.hpp"
 #include "siemens_statements.hpp"
 #include "turnwright/base/cancelled.hpp"
@@ -29,6 +31,8 @@ using toolpath::Point;
 
 constexpr double kRadii_mm = 0.02;        // by which the ends of an arc may differ
 constexpr double kLargestProgram = 9999;  // more digits of P are times
+
+constexpr double kOkumaBack_mm = 0.5;  // after a peck of G74
 
 bool system_a(Control c) { return c == Control::fanuc || c == Control::haas; }
 
@@ -89,6 +93,8 @@ class ProgramReader {
         siemens_(options.control == Control::siemens
                      ? std::make_shared<SiemensStatements>(flow)
                      : nullptr),
+        okuma_(options.control == Control::okuma ? std::make_shared<OkumaStatements>(flow)
+                                                 : nullptr),
         control_(options.control),
         words_(gcode::dialect(options.control)),
         s_(options) {
@@ -182,6 +188,9 @@ class ProgramReader {
   // A contour is one block after the other.
   bool directs(std::string_view text) {
     if (siemens_) return siemens_directs(text);
+    if (okuma_ && !in_contour_) return okuma_->direct(flow_);
+    if (okuma_ && OkumaStatements::is_directing(text))
+      throw NotFollowed("Branches and loops in the contour of a cycle are not followed.");
     if (!o_words_ && !macros_) return false;
     if (!in_contour_) return o_words_ ? o_words_->direct(flow_) : macros_->direct(flow_);
     const auto word = keyword_of(statement_of(text)).first;
@@ -220,7 +229,9 @@ class ProgramReader {
     if (special_ == Special::done) return;
     if (special_ == Special::thread_cycle) return threads_.take(s_, control_, block);
     if (special_ == Special::contour) return contour_cycle(block);
-    if (special_ == Special::pecks) return pecks_.take(s_, cycle_code_, block);
+    if (special_ == Special::lap) return lap(block);
+    if (special_ == Special::pecks)
+      return okuma_ ? okuma_drilling(block) : pecks_.take(s_, cycle_code_, block);
     if (special_ == Special::macro) return macro(block);
     if (special_ == Special::tap) return tap(block);
     special_ == Special::dwell ? dwell(block) : move(block);
@@ -244,6 +255,9 @@ class ProgramReader {
     else if (g >= 70 && g <= 75 && system_a(control_)) {
       special_ = g < 74 ? Special::contour : Special::pecks;
       cycle_code_ = g;
+    } else if (okuma_ && okuma_cycle(g)) {
+      special_ = g == 74 ? Special::pecks : Special::lap;
+      cycle_code_ = g;
     } else if (g == 65 && has_macros(control_))
       special_ = Special::macro;
     else if (g >= 40 && g <= 42)
@@ -254,6 +268,9 @@ class ProgramReader {
              std::ranges::find(kIdle, g) == kIdle.end())
       strange(g);
   }
+
+  // Contours and their cycles, and drilling.
+  static bool okuma_cycle(int g) { return g == 74 || (g >= 81 && g <= 88); }
 
   bool taps(int g) const {
     if (control_ == Control::siemens) return g == 331 || g == 332;
@@ -366,6 +383,8 @@ class ProgramReader {
       s_.diameter = w.name == "DIAMON";
     else if (w.name == "CHR" || w.name == "CHF" || w.name == "RND")
       corner_here_ = {w.name == "RND", w.name == "CHF", s_.mm(value)};
+    else if (special_ == Special::lap && w.name.front() == 'N')  // its contour
+      return;
     else if (w.name.size() > 1 && special_ != Special::done && !moves_nothing(w.name))
       strange_word(w);
     if (w.name.size() == 1 &&
@@ -620,6 +639,52 @@ class ProgramReader {
     if (line && *line >= flow_.line()) flow_.go_to(*line + 1);
   }
 
+  // G81 to G88 of Okuma.  The definition of a contour is passed over where it stands.
+  void lap(const Block& block) {
+    const bool defines = cycle_code_ <= 83;
+    const auto end = okuma_->end_of_contour(flow_.line());
+    if (defines && in_contour_) return;  // its first line
+    if (defines) {
+      if (!end) throw NotFollowed("The definition of the contour has no end.");
+      return flow_.go_to(*end + 1);
+    }
+    const auto label = label_in(block);
+    const auto begins = label ? flow_.block(*label) : std::nullopt;
+    const auto last = begins ? okuma_->end_of_contour(*begins) : std::nullopt;
+    if (!last || cycle_code_ == 84 || cycle_code_ == 88)
+      throw NotFollowed(
+          "G85, G86 and G87 of a contour between G81 or G82 and G80 are followed.");
+    const auto first = block_of(flow_.lines()[*begins], Language::okuma).value("G");
+    if (first != 81 && first != 82)
+      throw NotFollowed("Contours that G81 or G82 begins are followed, without a blank.");
+    const auto contour = contour_of_lines(*begins, *last - 1);
+    if (!contour) throw NotFollowed("The contour of a cycle has no cycles.");
+    lap_cycle(s_, cycle_code_, block, *contour,
+              first == 81 ? RoughingAlong::z : RoughingAlong::x);
+  }
+
+  // G74 X0 Z D F: D the length of a peck; how far it comes back is a parameter.
+  void okuma_drilling(const Block& block) {
+    const auto t = target(block);
+    for (const auto& w : block.words)
+      if (std::string_view("GNXZDFSTM").find(w.name.front()) == std::string_view::npos ||
+          w.name.size() > 1)
+        throw NotFollowed("Only X, Z, D and F of G74 are followed.");
+    if (t.x && t.x != s_.x_mm) s_.straight(Move::Kind::rapid, t.x, s_.z_mm);
+    if (!t.z || !s_.z_mm) throw NotFollowed("Z was not given before or in it.");
+    const double depth = std::abs(*t.z - *s_.z_mm);
+    const double peck = s_.mm(block.value("D").value_or(0));
+    DrillCycle d{.from_z_mm = *s_.z_mm, .away_z_mm = *s_.z_mm};
+    d.strokes_z_mm = strokes(*s_.z_mm, *t.z, peck > 0 ? peck : depth,
+                             [](double before) { return before; });
+    d.clears = false;
+    d.retract_mm = kOkumaBack_mm;
+    if (d.strokes_z_mm.size() > 1)
+      s_.assume(
+          "G74 comes back after each peck by a parameter of the control, here 0.5 mm.");
+    drill_cycle(s_, d);
+  }
+
   // The moves of the blocks from N = P to N = Q, as if they followed.
   std::optional<Contour> contour_between(double P, double Q) {
     const auto first = flow_.block(P), last = flow_.block(Q);
@@ -653,6 +718,7 @@ class ProgramReader {
     thread_cycle,
     contour,
     pecks,
+    lap,
     macro,
     tap
   };
@@ -661,6 +727,7 @@ class ProgramReader {
   std::shared_ptr<const OWords> o_words_;
   std::shared_ptr<const MacroStatements> macros_;
   std::shared_ptr<const SiemensStatements> siemens_;
+  std::shared_ptr<const OkumaStatements> okuma_;
   Control control_;
   const gcode::Dialect& words_;
   ModalState s_;

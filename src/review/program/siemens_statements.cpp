@@ -60,20 +60,10 @@ std::string ended_by(const std::string& word) {
   return word == "until" ? "repeat" : "";
 }
 
-// A label: a name, or "N10" with its number alone.
-std::string label_at(std::string_view text) {
-  auto [name, rest] = name_at_front(trimmed_blanks(text));
-  const bool number = name.size() > 1 && name.front() == 'n' &&
-                      name.find_first_not_of("0123456789", 1) == name.npos;
-  if (!number) return name;
-  const auto from = std::min(name.find_first_not_of('0', 1), name.size() - 1);
-  return name.substr(from);
-}
-
 void jump(Flow& flow, std::string_view text) {
   const auto [word, rest] = name_at_front(text);
   if (word == "gotos") return flow.go_to_begin();
-  const auto label = label_at(rest);
+  const auto label = label_at_front(rest, Language::siemens);
   const auto line = word == "gotof"   ? flow.block_ahead(label)
                     : word == "gotob" ? flow.block_behind(label)
                                       : flow.block(label);
@@ -101,7 +91,7 @@ void repeat_lines(Flow& flow, std::string_view rest, bool one_block) {
         name == "p" || (name.size() > 1 && name.front() == 'p' &&
                         name.find_first_not_of("0123456789", 1) == name.npos);
     if (name.empty() || times) break;
-    labels.push_back(label_at(rest));
+    labels.push_back(label_at_front(rest, Language::siemens));
     rest = behind;
   }
   if (labels.empty() || labels.size() > 2)

@@ -120,20 +120,25 @@ bool skip_operator(Scanner& in) {
 
 bool begins_name(char c) { return is_letter(c) || c == '_' || c == '$'; }
 
+// A name of letters, or one letter and a number.
 void skip_name(Scanner& in) {
-  while (begins_name(in.next()) || is_digit(in.next())) in.skip();
+  if (!begins_name(in.next())) return;
+  in.skip();
+  const bool numbered = is_digit(in.next());
+  while (is_digit(in.next()) || (!numbered && begins_name(in.next()))) in.skip();
 }
 
 // Skips one value as Siemens writes it: a number, a variable with its index, a function.
-bool skip_named_value(Scanner& in) {
+bool skip_named_value(Scanner& in, Language language) {
   constexpr std::string_view kBefore[] = {"B_NOT", "NOT", "-", "+"};
+  const char opening = language == Language::siemens ? '(' : '[';
   while (skip_one_of(in, kBefore)) {
   }
   in.skip_blanks();
-  if (in.next() == '(') return skip_brackets(in, true);
+  if (in.next() == opening) return skip_brackets(in, true);
   if (begins_name(in.next())) {
     skip_name(in);
-    return (in.next() != '(' && in.next() != '[') || skip_brackets(in, true);
+    return (in.next() != opening && in.next() != '[') || skip_brackets(in, true);
   }
   if (!in.number()) return false;
   if (capital(in.next()) != 'E') return true;
@@ -143,14 +148,18 @@ bool skip_named_value(Scanner& in) {
   return in.back_to(end), true;
 }
 
-// Skips an expression of Siemens, which ends with its line or before another word.
-bool skip_named_expression(Scanner& in) {
+// Skips an expression of Siemens or Okuma, which ends with its line or before another word.
+bool skip_named_expression(Scanner& in, Language language) {
   constexpr std::string_view kNamedBetween[] = {
       "*",   "/",   "+",  "-",  "DIV", "MOD", "B_AND", "B_XOR", "B_OR",
       "AND", "XOR", "OR", "==", "<>",  ">=",  "<=",    ">",     "<"};
+  constexpr std::string_view kOkumaBetween[] = {"*", "/", "+", "-"};
+  const std::span<const std::string_view> between =
+      language == Language::okuma ? std::span<const std::string_view>(kOkumaBetween)
+                                  : std::span<const std::string_view>(kNamedBetween);
   do
-    if (!skip_named_value(in)) return false;
-  while (skip_one_of(in, kNamedBetween));
+    if (!skip_named_value(in, language)) return false;
+  while (skip_one_of(in, between));
   return true;
 }
 
@@ -205,15 +214,27 @@ void skip_label(Scanner& in) {
   in.skip();
 }
 
+// "NLAP1" in front of a block of Okuma.
+void skip_named_number(Scanner& in) {
+  in.skip_blanks();
+  const auto start = in.at();
+  if (capital(in.next()) != 'N') return;
+  in.skip();
+  if (!is_letter(in.next())) return in.back_to(start);
+  skip_name(in);
+  if (!in.done() && !is_blank(in.next())) in.back_to(start);
+}
+
 // "R1=5", "R[R2]=5", "depth[1]=5"; names of DEF alone are words at first.
-std::optional<Assignment> named_assignment_of(Scanner& in) {
+std::optional<Assignment> named_assignment_of(Scanner& in, Language language) {
+  const char letter = language == Language::okuma ? 'V' : 'R';
   const auto start = in.at();
   Assignment a;
   const char first = capital(in.next());
   skip_name(in);
   const auto name = in.since(start);
   const bool numbered =
-      first == 'R' && name.size() > 1 &&
+      first == letter && name.size() > 1 &&
       std::ranges::all_of(name.substr(1), [](char c) { return is_digit(c); });
   const bool indexed = in.next() == '[' && skip_brackets(in, true);
   a.parameter = in.since(start);
@@ -221,7 +242,7 @@ std::optional<Assignment> named_assignment_of(Scanner& in) {
   if ((!numbered && !indexed) || in.next() != '=') return std::nullopt;
   in.skip();
   const auto from = in.at();
-  if (!skip_named_expression(in)) return std::nullopt;
+  if (!skip_named_expression(in, language)) return std::nullopt;
   a.expression = in.since(from);
   return a;
 }
@@ -254,7 +275,8 @@ void read_meaning(Word& w) {
 }
 
 // What stands behind the name of a word.
-bool read_value(Scanner& in, bool names, Word& w) {
+bool read_value(Scanner& in, Language language, Word& w) {
+  const bool names = has_names(language);
   const bool equals = in.next() == '=';
   if (equals) in.skip();
   const auto from = in.at();
@@ -269,7 +291,7 @@ bool read_value(Scanner& in, bool names, Word& w) {
   if (!equals) return w.value.has_value();
   const auto end = in.at();
   in.back_to(from);
-  if (!skip_named_expression(in)) return in.back_to(end), w.value.has_value();
+  if (!skip_named_expression(in, language)) return in.back_to(end), w.value.has_value();
   if (w.value && in.at() == end) return true;
   w.value.reset();
   w.expression = in.since(from);
@@ -277,11 +299,11 @@ bool read_value(Scanner& in, bool names, Word& w) {
   return true;
 }
 
-std::optional<Word> word_of(Scanner& in, bool names) {
+std::optional<Word> word_of(Scanner& in, Language language) {
   const auto start = in.at();
   Word w;
-  w.name = name_of(in, names);
-  if ((w.name.size() == 1 || in.next() == '=') && !read_value(in, names, w))
+  w.name = name_of(in, has_names(language));
+  if ((w.name.size() == 1 || in.next() == '=') && !read_value(in, language, w))
     return std::nullopt;
   if (in.next() == '(' && w.name.size() > 1) return std::nullopt;
   w.text = in.since(start);
@@ -321,16 +343,18 @@ Block block_of(std::string_view line, Language language) {
     block.deletable = true;
     in.skip();
   }
-  if (names) skip_label(in);
+  if (language == Language::siemens) skip_label(in);
+  if (language == Language::okuma) skip_named_number(in);
   for (in.skip_blanks(); !in.done(); in.skip_blanks()) {
     const char c = in.next();
     const auto start = in.at();
-    if (c == ';' || (c == '(' && !names)) {
+    if (c == ';' || (c == '(' && language != Language::siemens)) {
       in.skip();
       block.comments.push_back(in.comment(c == '(' ? ')' : '\n'));
       continue;
     }
-    if (const auto message = names ? message_of(in) : std::nullopt) {
+    if (const auto message =
+            language == Language::siemens ? message_of(in) : std::nullopt) {
       block.comments.push_back(*message);
       continue;
     }
@@ -345,12 +369,12 @@ Block block_of(std::string_view line, Language language) {
       break;
     }
     if (const auto assignment =
-            names && begins_name(c) ? named_assignment_of(in) : std::nullopt) {
+            names && begins_name(c) ? named_assignment_of(in, language) : std::nullopt) {
       block.assignments.push_back(*assignment);
       continue;
     }
     in.back_to(start);
-    const auto word = is_letter(c) ? word_of(in, names) : std::nullopt;
+    const auto word = is_letter(c) ? word_of(in, language) : std::nullopt;
     if (!word) {
       in.back_to(start);
       block.rest = in.rest();
