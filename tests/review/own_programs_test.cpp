@@ -271,14 +271,16 @@ TEST(ReviewOfOwnPrograms, FollowsReamersAndTapsInEveryControl) {
     }
 }
 
-// A part with a drill, a groove and a thread in every control, threads by cycles too.
+// A part with a drill, a groove and a thread in every control, holes and threads by cycles
+// too.
 TEST(ReviewOfOwnPrograms, IsTheSameInEveryControl) {
   const auto& p = nc::test::planned_reference("threaded-spindle");
   const auto one = reviewed(p, {.control = gcode::Control::linuxcnc});
   for (const auto& d : gcode::dialects())
     for (const bool cycles : {false, true}) {
-      if (cycles && d.thread_cycle.empty()) continue;
-      const auto r = reviewed(p, {.control = d.control, .cycles = cycles});
+      const auto r = reviewed(p, {.control = d.control,
+                                  .cycles = cycles && !d.thread_cycle.empty(),
+                                  .drill_cycles = cycles});
       for (std::size_t i = 0; i < r.review.setups.size(); ++i) {
         const auto &a = one.review.setups[i], &b = r.review.setups[i];
         EXPECT_TRUE(b.unknown.empty()) << d.id << ": " << b.unknown[0].what;

@@ -88,10 +88,10 @@ void drill_cycle(ModalState& s, const DrillCycle& c) {
   }
   if (c.feed_out > 0) {
     s.F = c.feed_out;
-    s.straight(Kind::feed, 0, c.from_z_mm);
+    s.straight(Kind::feed, 0, c.feeds_away ? c.away_z_mm : c.from_z_mm);
   }
   s.F = F;
-  s.straight(Kind::rapid, 0, c.away_z_mm);
+  if (!c.feeds_away) s.straight(Kind::rapid, 0, c.away_z_mm);
 }
 
 void thread_cycle(ModalState& s, const ThreadCycle& c) {

@@ -29,7 +29,8 @@ struct DrillCycle {
   double before_mm = 0, retract_mm = 0;
   double first_feed_share = 1;
   double wait_bottom_min = 0, wait_top_min = 0;
-  double feed_out = 0;  ///< of the way out, in the control's unit; 0: at rapid
+  double feed_out = 0;      ///< of the way out, in the control's unit; 0: at rapid
+  bool feeds_away = false;  ///< the whole way, not only to where the strokes begin
 };
 void drill_cycle(ModalState& s, const DrillCycle& cycle);
 

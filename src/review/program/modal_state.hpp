@@ -32,6 +32,8 @@ class ModalState {
   int tool = 0, chosen_tool = 0;
   // Coordinates.
   bool inch = false, diameter = true, incremental = false;
+  int plane = 18;           ///< G17 to G19
+  bool to_plane_R = false;  ///< G99 of drilling cycles
   /// Why moves are not followed at present: a shifted zero, say.
   std::string suspended = {};
 

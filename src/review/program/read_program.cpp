@@ -10,6 +10,7 @@
 
 #include "contour_cycle.hpp"
 #include "cycles.hpp"
+#include "drill_cycle_reader.hpp"
 #include "expression.hpp"
 #include "flow.hpp"
 #include "macro_statements.hpp"
@@ -37,7 +38,7 @@ constexpr double kOkumaBack_mm = 0.5;  // after a peck of G74
 bool system_a(Control c) { return c == Control::fanuc || c == Control::haas; }
 
 // G codes that change nothing here: planes, cancellations, exact stop, retract levels.
-constexpr std::array kIdle{17, 18, 43, 49, 61, 64, 80, 291, 601, 602, 603};
+constexpr std::array kIdle{43, 49, 61, 64, 291, 601, 602, 603};
 
 std::string lower(std::string text) {
   std::ranges::transform(text, text.begin(), [](unsigned char c) {
@@ -252,6 +253,12 @@ class ProgramReader {
       special_ = Special::thread_cycle;
     else if (taps(g))
       special_ = Special::tap;
+    else if (DrillCycleReader::has(control_, g))
+      motion_ = g, drilling_.begin();
+    else if (g >= 17 && g <= 19)
+      s_.plane = g;
+    else if (g == 80)  // ends drilling
+      motion_ = drills() ? 0 : motion_;
     else if (g >= 70 && g <= 75 && system_a(control_)) {
       special_ = g < 74 ? Special::contour : Special::pecks;
       cycle_code_ = g;
@@ -271,6 +278,10 @@ class ProgramReader {
 
   // Contours and their cycles, and drilling.
   static bool okuma_cycle(int g) { return g == 74 || (g >= 81 && g <= 88); }
+
+  bool drills() const {
+    return motion_ >= 70 && DrillCycleReader::has(control_, motion_);
+  }
 
   bool taps(int g) const {
     if (control_ == Control::siemens) return g == 331 || g == 332;
@@ -315,6 +326,7 @@ class ProgramReader {
     }
     if (g == 94 || g == 95) s_.per_revolution = g == 95;
     if (g == 90 || g == 91) s_.incremental = g == 91;
+    if (g == 98 || g == 99) s_.to_plane_R = g == 99;
     return g == 94 || g == 95 || g == 90 || g == 91 || g == 98 || g == 99;
   }
 
@@ -538,6 +550,7 @@ class ProgramReader {
       default:
         break;
     }
+    if (drills()) return drilling_.take(s_, control_, motion_, block, t.x, t.z);
     if (!s_.x_mm || !s_.z_mm) {
       s_.unknown("a cut from a place that is not known",
                  "It is not followed: X or Z was not given before it.");
@@ -734,6 +747,7 @@ class ProgramReader {
   ThreadCycleReader threads_;
   ContourCycleReader contours_;
   PeckCycleReader pecks_;
+  DrillCycleReader drilling_;
   int motion_ = 0;
   Special special_ = Special::none;
   int work_offset_ = 0;
