@@ -77,7 +77,7 @@ struct ReadOptions {
 ///                     and G72 of contours that go one way in X and in Z, G73, G70, G74,
 ///                     G75, in two blocks or one; G83, G85, of Haas G81, G82, G89
 ///     fanuc-b         G76, G83, G85
-///     linuxcnc        G76, G73, G81 to G83, G85, G89
+///     linuxcnc        G70 to G72, G71.1, G72.1; G76, G73, G81 to G83, G85, G89
 ///     okuma           G33 comes back to where it began; G85 to G87 of LAP, G74
 ///     siemens         CYCLE81 to 85, 840, 95, 97
 ///

@@ -4,12 +4,14 @@
 #include <cmath>
 #include <utility>
 
+#include "plane.hpp"
 #include "turnwright/base/units.hpp"
 
 namespace turnwright::review {
 namespace {
 
 using toolpath::Move;
+using toolpath::Point;
 using toolpath::Step;
 
 constexpr std::size_t kUnknowns = 200;  // listed; more are counted by their reader
@@ -92,27 +94,29 @@ void ModalState::break_corner(const Move& next) {
   if (!last || !last->from || !x_mm || !z_mm || !straight(last->to) || !straight(next) ||
       last->to.x_mm != *x_mm || last->to.z_mm != *z_mm)
     return refuse();
-  const double ah = *x_mm - last->from->h_mm, az = *z_mm - last->from->z_mm;
-  const double bh = next.x_mm - *x_mm, bz = next.z_mm - *z_mm;
-  const double a = std::hypot(ah, az), b = std::hypot(bh, bz);
-  const double cross = ah * bz - az * bh, dot = ah * bh + az * bz;
-  const double turn = std::atan2(std::abs(cross), dot);
+  const Point corner_at{*x_mm, *z_mm};
+  const auto before = between(*last->from, corner_at);
+  const auto behind = between(corner_at, {next.x_mm, next.z_mm});
+  const double left = cross(before, behind);
+  const double turn = std::atan2(std::abs(left), dot(before, behind));
   const double half = std::tan(turn / 2);
-  const double leg = c.rounded     ? c.size_mm * half
-                     : c.by_length ? c.size_mm / (2 * std::cos(turn / 2))
-                                   : c.size_mm;
-  if (!(turn > 0) || !(leg < a && leg < b)) return refuse();
-  const toolpath::Point corner_at{*x_mm, *z_mm};
-  last->to.x_mm = *x_mm = corner_at.h_mm - leg * ah / a;
-  last->to.z_mm = *z_mm = corner_at.z_mm - leg * az / a;
-  Move m{Move::Kind::feed, corner_at.h_mm + leg * bh / b, corner_at.z_mm + leg * bz / b};
-  if (c.rounded) {
-    // The way turns with the clock, seen with X up and Z to the right, if the cross product
-    // is positive; the centre lies on that side.
-    const double side = cross > 0 ? 1 : -1;
+  const bool by_radius =
+      c.form == Corner::Form::rounded || c.form == Corner::Form::chamfer_rounded;
+  const double leg = by_radius ? c.size_mm * half
+                     : c.form == Corner::Form::chamfer_across
+                         ? c.size_mm / (2 * std::cos(turn / 2))
+                         : c.size_mm;
+  if (!(turn > 0) || !(leg < length(before) && leg < length(behind))) return refuse();
+  const auto begins = plus(corner_at, unit(before), -leg);
+  const auto ends = plus(corner_at, unit(behind), leg);
+  last->to.x_mm = *x_mm = begins.h_mm;
+  last->to.z_mm = *z_mm = begins.z_mm;
+  Move m{Move::Kind::feed, ends.h_mm, ends.z_mm};
+  if (c.form == Corner::Form::rounded) {
+    // The centre lies on the side to which the way turns.
     m.kind = Move::Kind::arc;
-    m.clockwise = cross > 0;
-    m.centre = {*x_mm - side * c.size_mm * az / a, *z_mm + side * c.size_mm * ah / a};
+    m.clockwise = left < 0;
+    m.centre = plus(begins, to_the_right(unit(before)), std::copysign(c.size_mm, -left));
   }
   to(m);
 }

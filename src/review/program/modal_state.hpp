@@ -15,9 +15,14 @@ void list(std::vector<Unknown>& all, Unknown unknown);
 
 /// A chamfer or rounding between the last move and the next one.
 struct Corner {
-  bool rounded = false;    ///< by a radius; otherwise a chamfer,
-  bool by_length = false;  ///< of this length; otherwise of this length of each leg
-  double size_mm = 0;      ///< 0: none
+  enum class Form {
+    rounded,         ///< by a radius
+    chamfer,         ///< of a length of each leg
+    chamfer_across,  ///< of a length across
+    chamfer_rounded  ///< with the legs that a rounding of a radius has
+  };
+  Form form = Form::chamfer;
+  double size_mm = 0;  ///< 0: none
 };
 
 /// What a control holds until a block changes it.

@@ -13,6 +13,7 @@
 #include "drill_cycle_reader.hpp"
 #include "expression.hpp"
 #include "flow.hpp"
+#include "g7x_cycle.hpp"
 #include "macro_statements.hpp"
 #include "modal_state.hpp"
 #include "o_words.hpp"
@@ -259,7 +260,10 @@ class ProgramReader {
       s_.plane = g;
     else if (g == 80)  // ends drilling
       motion_ = drills() ? 0 : motion_;
-    else if (g >= 70 && g <= 75 && system_a(control_)) {
+    else if (g >= 70 && g <= 72 && o_words_) {
+      special_ = Special::contour;
+      cycle_code_ = g;
+    } else if (g >= 70 && g <= 75 && system_a(control_)) {
       special_ = g < 74 ? Special::contour : Special::pecks;
       cycle_code_ = g;
     } else if (okuma_ && okuma_cycle(g)) {
@@ -291,6 +295,12 @@ class ProgramReader {
 
   // Codes with a decimal.
   void fraction(double value, const Block& block) {
+    for (const int g : {71, 72})
+      if (o_words_ && std::abs(value - g - 0.1) < 1e-6) {
+        special_ = Special::contour;
+        cycle_code_ = g;
+        return;
+      }
     if (control_ == Control::linuxcnc && std::abs(value - 33.1) < 1e-6) {
       special_ = Special::tap;
       return;
@@ -394,13 +404,20 @@ class ProgramReader {
     else if (w.name == "DIAMON" || w.name == "DIAMOF")
       s_.diameter = w.name == "DIAMON";
     else if (w.name == "CHR" || w.name == "CHF" || w.name == "RND")
-      corner_here_ = {w.name == "RND", w.name == "CHF", s_.mm(value)};
+      corner_here_ = {w.name == "RND"   ? Corner::Form::rounded
+                      : w.name == "CHF" ? Corner::Form::chamfer_across
+                                        : Corner::Form::chamfer,
+                      s_.mm(value)};
     else if (special_ == Special::lap && w.name.front() == 'N')  // its contour
       return;
     else if (w.name.size() > 1 && special_ != Special::done && !moves_nothing(w.name))
       strange_word(w);
-    if (w.name.size() == 1 &&
-        std::string_view("ABCVY").find(w.name) != std::string_view::npos)
+    if (in_contour_ && o_words_ && (w.name == "A" || w.name == "C"))
+      corner_here_ = {
+          w.name == "A" ? Corner::Form::rounded : Corner::Form::chamfer_rounded,
+          s_.mm(value)};
+    else if (w.name.size() == 1 &&
+             std::string_view("ABCVY").find(w.name) != std::string_view::npos)
       s_.unknown(w.text, "Only the axes X and Z are followed.");
     if (w.name == "E" && special_ == Special::none && motion_ < 4)
       s_.unknown(
@@ -518,7 +535,7 @@ class ProgramReader {
       return now ? std::optional(*now + s_.mm(*v) * scale) : std::nullopt;
     };
     Target t{absolute("X", half, s_.x_mm), absolute("Z", 1, s_.z_mm)};
-    if (!system_a(control_)) return t;
+    if (!system_a(control_) && !(o_words_ && in_contour_)) return t;
     if (const auto u = block.value("U"); u && s_.x_mm) t.x = *s_.x_mm + s_.mm(*u) * half;
     if (const auto w = block.value("W"); w && s_.z_mm) t.z = *s_.z_mm + s_.mm(*w);
     return t;
@@ -540,8 +557,9 @@ class ProgramReader {
 
   void straight_or_arc(const Block& block, const Target& t) {
     switch (motion_) {
-      case 0:
-        return s_.straight(Move::Kind::rapid, t.x, t.z);
+      case 0:  // a contour's is a cut in LinuxCNC
+        return s_.straight(in_contour_ && o_words_ ? Move::Kind::feed : Move::Kind::rapid,
+                           t.x, t.z);
       case 1:
         return s_.straight(Move::Kind::feed, t.x, t.z);
       case 2:
@@ -645,11 +663,24 @@ class ProgramReader {
 
   // G70 to G73 of system A; the program goes on behind the contour.
   void contour_cycle(const Block& block) {
+    if (o_words_) return subroutine_cycle(block);
     const auto end =
         contours_.take(s_, control_, cycle_code_, block,
                        [this](double P, double Q) { return contour_between(P, Q); });
     const auto line = end ? flow_.block(*end) : std::nullopt;
     if (line && *line >= flow_.line()) flow_.go_to(*line + 1);
+  }
+
+  // G70 to G72 of LinuxCNC, along the contour of a subroutine.
+  void subroutine_cycle(const Block& block) {
+    const auto Q = block.value("Q");
+    const auto lines = Q ? o_words_->subroutine(*Q) : std::nullopt;
+    if (!lines) throw NotFollowed("The subroutine of its contour is not in the text.");
+    const auto t = target(block);
+    s_.straight(Move::Kind::rapid, t.x, t.z);
+    const auto contour = contour_of_lines(lines->first + 1, lines->second - 1);
+    if (!contour) throw NotFollowed("The contour of a cycle has no cycles.");
+    g7x_cycle(s_, cycle_code_, block, *contour);
   }
 
   // G81 to G88 of Okuma.  The definition of a contour is passed over where it stands.
@@ -712,6 +743,7 @@ class ProgramReader {
     s_.program = std::move(kept);
     inner.in_contour_ = true;
     inner.s_.turning = true;
+    if (o_words_) inner.s_.nose = {};
     if (siemens_) {  // feeds of CYCLE95 are its own, or those of the contour's words
       inner.s_.F_line = 0;
       if (!(inner.s_.F > 0)) inner.s_.F = 1;

@@ -189,7 +189,7 @@ TEST(ReadProgram, ListsWhatItDoesNotKnow) {
       {Control::linuxcnc, "o100 call\n", 3, "o100 call"},
       {Control::linuxcnc, "o100 if [#5161]\no100 endif\n", 3, "o100 if [#5161]"},
       {Control::linuxcnc, "o100 while [1]\n", 3, "o100 while [1]"},
-      {Control::linuxcnc, "G71 Q100 D1 I1 R1\n", 3, "G71"},
+      {Control::linuxcnc, "G71 Q100 D1 I1 R1\n", 3, "G71 Q100 D1 I1 R1"},
       {Control::fanuc, "G73 P10 Q20 U1.\n", 3, "P10 Q20"},
       {Control::fanuc, "M98 P1000\n", 3, "M98 P1000"},
       {Control::fanuc, "G65 P1000 A1.\n", 3, "G65 P1000 A1."},
