@@ -86,7 +86,7 @@ struct ReadOptions {
 ///     d_k = d_1 k^(1/R), R = 2 but for LinuxCNC's word R, until the whole depth.       (1)
 ///
 /// Variables, expressions, subprograms, branches and loops are executed: LinuxCNC's O words
-/// and #<name>, Fanuc's macro B, M97, M98, M99 and G65, Siemens' R and DEF, IF to UNTIL,
+/// and #<name>, Fanuc's macro B, M97, M98, M99 and G65 to G67, Siemens' R and DEF, IF to UNTIL,
 /// labels and programs by name, Okuma's V, IF, GOTO and CALL; at most 200,000 lines beyond each
 /// once, and calls ten deep.
 ///

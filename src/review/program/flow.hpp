@@ -59,6 +59,9 @@ class Flow {
   bool endless() const { return executed_ > most_; }
 
   std::size_t line() const { return line_; }
+  std::size_t depth() const {
+    return calls_.size();
+  }  ///< of calls, 1 in the first program
   const std::vector<std::string_view>& lines() const { return lines_; }
 
   /// The line that bears a block number, of this program: the next one, else the first.

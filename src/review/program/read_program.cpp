@@ -235,6 +235,7 @@ class ProgramReader {
     if (special_ == Special::pecks)
       return okuma_ ? okuma_drilling(block) : pecks_.take(s_, cycle_code_, block);
     if (special_ == Special::macro) return macro(block);
+    if (special_ == Special::modal_macro) return begin_modal_macro(block);
     if (special_ == Special::tap) return tap(block);
     special_ == Special::dwell ? dwell(block) : move(block);
     for (const auto& w : block.words)
@@ -269,8 +270,10 @@ class ProgramReader {
     } else if (okuma_ && okuma_cycle(g)) {
       special_ = g == 74 ? Special::pecks : Special::lap;
       cycle_code_ = g;
-    } else if (g == 65 && has_macros(control_))
-      special_ = Special::macro;
+    } else if ((g == 65 || g == 66) && has_macros(control_))
+      special_ = g == 65 ? Special::macro : Special::modal_macro;
+    else if (g == 67 && has_macros(control_))
+      modal_macro_.reset();
     else if (g >= 40 && g <= 42)
       nose(g, 0);
     else if (g == 96 || g == 97)
@@ -387,7 +390,8 @@ class ProgramReader {
 
   void word(const Word& w) {
     const auto value = w.value.value_or(0);
-    if (special_ == Special::macro || (special_ == Special::dwell && w.name != "M"))
+    if (special_ == Special::macro || special_ == Special::modal_macro ||
+        (special_ == Special::dwell && w.name != "M"))
       return;  // its arguments
     if (w.name == "F" && motion_ != 92 && special_ != Special::thread_cycle &&
         special_ != Special::tap)
@@ -517,6 +521,23 @@ class ProgramReader {
     flow_.call_macro(*P, block.value("L").value_or(1), macro_arguments(block));
   }
 
+  // G66: the macro is called behind each block that moves, in the program of the G66, until
+  // G67, each time with the same arguments.
+  void begin_modal_macro(const Block& block) {
+    const auto P = block.value("P");
+    if (!P) throw NotFollowed("The macro has no number.");
+    if (modal_macro_) throw NotFollowed("One G66 in another is not followed.");
+    if (!flow_.has_program(*P)) throw NotFollowed("The subprogram is not in the text.");
+    modal_macro_ = {*P, block.value("L").value_or(1), macro_arguments(block),
+                    flow_.depth()};
+  }
+  void call_modal_macro() {
+    if (!modal_macro_ || modal_macro_->depth != flow_.depth()) return;
+    if (in_contour_) throw NotFollowed("The contour of a cycle has no calls.");
+    const auto& m = *modal_macro_;
+    flow_.call_macro(m.number, m.times, m.arguments);
+  }
+
   struct Target {
     std::optional<double> x, z;
   };
@@ -553,6 +574,7 @@ class ProgramReader {
     const auto t = target(block);
     straight_or_arc(block, t);
     s_.corner = corner_here_;
+    call_modal_macro();
   }
 
   void straight_or_arc(const Block& block, const Target& t) {
@@ -765,6 +787,7 @@ class ProgramReader {
     pecks,
     lap,
     macro,
+    modal_macro,
     tap
   };
 
@@ -789,6 +812,12 @@ class ProgramReader {
   bool nose_here_ = false;  // G40 to G42 in the block
   Corner corner_here_;
   int cycle_code_ = 0;
+  struct ModalMacro {
+    double number = 0, times = 1;
+    std::map<int, double> arguments = {};
+    std::size_t depth = 0;
+  };
+  std::optional<ModalMacro> modal_macro_;  // of G66
 };
 
 }  // namespace

@@ -193,7 +193,7 @@ TEST(ReadProgram, ListsWhatItDoesNotKnow) {
       {Control::fanuc, "G73 P10 Q20 U1.\n", 3, "P10 Q20"},
       {Control::fanuc, "M98 P1000\n", 3, "M98 P1000"},
       {Control::fanuc, "G65 P1000 A1.\n", 3, "G65 P1000 A1."},
-      {Control::fanuc, "G66 P1000 A1.\n", 3, "G66"},
+      {Control::fanuc, "G66 P1000 A1.\n", 3, "G66 P1000 A1."},
       {Control::fanuc, "G1 X#500\n", 3, "G1 X#500"},
       {Control::fanuc, "#3000=1(ALARM)\n", 3, "#3000=1(ALARM)"},
       {Control::fanuc, "IF [#1001 EQ 1] GOTO 9\n", 3, "IF [#1001 EQ 1] GOTO 9"},
