@@ -64,7 +64,7 @@ struct Reviewed {
   Review review;
 };
 
-// Programs that mill list their milling as not followed: here somebody mills.
+// Here somebody mills.
 nc::Programs turning_programs(const Planned& p) {
   auto part = p.part;
   if (part.machine.driven_tools) part.machine.driven_tools->c_axis = false;
@@ -294,6 +294,43 @@ TEST(ReviewOfOwnPrograms, IsTheSameInEveryControl) {
             << d.id;
       }
     }
+}
+
+// A keyway and a flat are named with their tools and take their time; the surfaces turned
+// before and behind them are reviewed as without them.
+TEST(ReviewOfOwnPrograms, TellsOfMillingThatItIsNotReviewed) {
+  const auto& p = nc::test::planned_reference("keyed-shaft");
+  const auto turned = reviewed(p, {.control = gcode::Control::linuxcnc});
+  for (const auto& d : gcode::dialects()) {
+    if (!d.y_axis) continue;  // the flat needs it
+    nc::Settings settings{.control = d.control};
+    const bool builders = d.c_axis_is_builders || d.tool_on.empty();
+    if (d.c_axis_is_builders)
+      settings.milling = {.c_axis_on = "M35", .c_axis_off = "M34"};
+    if (builders)
+      settings.milling.tool_on =
+          d.control == gcode::Control::siemens ? "S2={S} M2=3" : "S{S} M13";
+    if (builders)
+      settings.milling.tool_off = d.control == gcode::Control::siemens ? "M2=5" : "M15";
+    auto programs = nc::programs(p.part, p.plan);
+    nc::number_tools(programs.setups, settings);
+    std::vector<ReviewedProgram> read;
+    for (const auto& s : programs.setups)
+      read.push_back({s.setup, read_program(nc::text(s, settings),
+                                            {.control = d.control,
+                                             .n_max_rpm = p.part.machine.n_max_rpm})});
+    const auto r = review(p.part, read, turret(p, programs));
+    ASSERT_EQ(r.setups[0].unknown.size(), 2U) << d.id;
+    EXPECT_TRUE(r.setups[1].unknown.empty()) << d.id;
+    for (const auto& u : r.setups[0].unknown)
+      EXPECT_TRUE(u.what.starts_with("milling by T")) << d.id << u.what << u.why;
+    ASSERT_EQ(r.setups[0].cuts.size(), turned.review.setups[0].cuts.size()) << d.id;
+    EXPECT_TRUE(r.setups[0].rapids.empty()) << d.id;
+    const auto& minutes = programs.setups[0].minutes;
+    EXPECT_NEAR(r.setups[0].minutes.total() / (minutes.total() - minutes.operator_stops),
+                1, 0.005)
+        << d.id;
+  }
 }
 
 // A knurling wheel cuts nothing, and what it does is told.

@@ -41,11 +41,13 @@ struct ReadMove {
   std::size_t line = 0;
   WordsInForce words = {};
   NoseCompensation nose = {};
+  double from_y_mm = 0;  ///< of a driven tool
 };
 
 /// Moves at one tool, spindle speed and feed, or a stop.
 struct Run {
-  toolpath::Step step;  ///< conditions alone: neither comments nor moves
+  toolpath::Step step;  ///< conditions alone: neither comments nor moves; of driven tools
+                        ///< `milling`
   std::vector<ReadMove> moves = {};
   double wait_min = 0;  ///< dwells between and behind them
 };
@@ -89,6 +91,10 @@ struct ReadOptions {
 /// and #<name>, Fanuc's macro B, M97, M98, M99 and G65 to G67, Siemens' R and DEF, IF to UNTIL,
 /// labels and programs by name, Okuma's V, IF, GOTO and CALL; at most 200,000 lines beyond each
 /// once, and calls ten deep.
+///
+/// Moves while the main spindle is an axis (C, Y, codes of driven tools) have `milling`: they
+/// are not reviewed, which is told once a tool, but take time, and the place behind them is
+/// known.
 ///
 /// Reference returns move the tool to a place that is not known.  Everything else is listed
 /// under `unknown` with its line, and reading goes on; after a line that may have moved the

@@ -65,33 +65,34 @@ std::vector<double> strokes(double from_z_mm, double bottom_z_mm, double first_m
 }
 
 void drill_cycle(ModalState& s, const DrillCycle& c) {
-  if (!s.x_mm || *s.x_mm != 0 || c.strokes_z_mm.empty())
+  if (!s.x_mm || (*s.x_mm != 0 && !s.milling.on) || c.strokes_z_mm.empty())
     return s.lose_place(),
            s.unknown("a drilling cycle",
                      "X is not known or not 0, or its depth or strokes are not given.");
   const double outwards = c.from_z_mm > c.strokes_z_mm.back() ? 1 : -1;
-  s.straight(Kind::rapid, 0, c.from_z_mm);
+  s.straight(Kind::rapid, s.x_mm, c.from_z_mm);
   const double F = s.F;
   std::optional<double> reached;
   for (const double z : c.strokes_z_mm) {
     if (reached && c.clears) {
-      s.straight(Kind::rapid, 0, c.from_z_mm);
+      s.straight(Kind::rapid, s.x_mm, c.from_z_mm);
       s.dwell(c.wait_top_min);
     }
     const double back = c.clears ? c.before_mm : c.retract_mm;
     const double room = reached ? std::abs(c.from_z_mm - *reached) : 0;
-    if (reached) s.straight(Kind::rapid, 0, *reached + outwards * std::min(back, room));
+    if (reached)
+      s.straight(Kind::rapid, s.x_mm, *reached + outwards * std::min(back, room));
     s.F = reached ? F : F * c.first_feed_share;
-    s.straight(Kind::feed, 0, z);
+    s.straight(Kind::feed, s.x_mm, z);
     s.dwell(c.wait_bottom_min);
     reached = z;
   }
   if (c.feed_out > 0) {
     s.F = c.feed_out;
-    s.straight(Kind::feed, 0, c.feeds_away ? c.away_z_mm : c.from_z_mm);
+    s.straight(Kind::feed, s.x_mm, c.feeds_away ? c.away_z_mm : c.from_z_mm);
   }
   s.F = F;
-  if (!c.feeds_away) s.straight(Kind::rapid, 0, c.away_z_mm);
+  if (!c.feeds_away) s.straight(Kind::rapid, s.x_mm, c.away_z_mm);
 }
 
 void thread_cycle(ModalState& s, const ThreadCycle& c) {

@@ -1,5 +1,7 @@
 #include "modal_state.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -22,7 +24,9 @@ constexpr double kLeastFeed = 1e-6, kLeastSpeed = 1e-3;  // less is none
 bool same_conditions(const Step& a, const Step& b) {
   return a.stop == b.stop && a.tool == b.tool && a.S == b.S &&
          a.constant_surface_speed == b.constant_surface_speed &&
-         a.n_max_rpm == b.n_max_rpm && a.f_mm_rev == b.f_mm_rev;
+         a.n_max_rpm == b.n_max_rpm && a.f_mm_rev == b.f_mm_rev &&
+         a.milling.has_value() == b.milling.has_value() &&
+         (!a.milling || a.milling->f_mm_min == b.milling->f_mm_min);
 }
 
 }  // namespace
@@ -64,6 +68,37 @@ Step ModalState::conditions(const Move& move, double lead_mm) {
   }
   s.f_mm_rev = n > 0 ? F / n : 0;
   return s;
+}
+
+// The feed of a driven tool; rapids belong to the cuts beside them.
+void ModalState::mill(const Move& move) {
+  Step step;
+  step.tool = tool;
+  toolpath::Milling m;
+  m.n_rpm = milling.n_rpm;
+  m.f_mm_min = per_revolution ? F * milling.n_rpm : F;
+  auto& runs = program.runs;
+  if (move.kind == Move::Kind::rapid)
+    m.f_mm_min = !runs.empty() && runs.back().step.milling
+                     ? runs.back().step.milling->f_mm_min
+                     : std::max(m.f_mm_min, kLeastFeed);
+  step.milling = m;
+  if (!(m.f_mm_min >= kLeastFeed))
+    return unknown("a cut", "No feed of the driven tool is given.");
+  if (milled_by_.insert(tool).second)
+    unknown(tool > 0 ? fmt::format("milling by T{}", tool) : "milling",
+            "Driven tools are not reviewed: their time counts, and the stock stays as it "
+            "is.");
+  std::optional<Point> from;
+  if (x_mm && z_mm) from = Point{*x_mm, *z_mm};
+  if (runs.empty() || !same_conditions(runs.back().step, step)) runs.push_back({step});
+  runs.back().moves.push_back(
+      {.from = from, .to = move, .line = line, .from_y_mm = milling.y_mm});
+}
+
+void ModalState::end_milling() {
+  if (milling.c == MillingMode::C::plane && x_mm) x_mm = std::hypot(*x_mm, milling.y_mm);
+  milling = {};
 }
 
 void ModalState::append(const Move& move, double lead_mm) {
@@ -131,6 +166,9 @@ void ModalState::to(Move move) {
   }
   if (!suspended.empty()) {
     if (feeds) unknown("a cut", suspended);
+  } else if (milling.on) {
+    mill(move);
+    milling.y_mm = move.y_mm;
   } else if (feeds && !turning) {
     unknown("a cut with the spindle at rest", "No M3 or M4 is in force.");
   } else if (feeds && !(F >= kLeastFeed && S >= kLeastSpeed)) {
@@ -147,7 +185,11 @@ void ModalState::straight(Move::Kind kind, std::optional<double> x,
                           std::optional<double> z) {
   if (!x) x = x_mm;
   if (!z) z = z_mm;
-  if (x && z) return to({kind, *x, *z});
+  if (x && z) {
+    Move move{kind, *x, *z};
+    move.y_mm = milling.y_mm;
+    return to(move);
+  }
   if (kind != Move::Kind::rapid)
     unknown("a cut from a place that is not known",
             "It is not followed: X or Z was not given before it.");

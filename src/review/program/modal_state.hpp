@@ -1,5 +1,6 @@
 #pragma once
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -25,6 +26,17 @@ struct Corner {
   double size_mm = 0;  ///< 0: none
 };
 
+/// A driven tool at work, with the main spindle as an axis.
+struct MillingMode {
+  bool on = false;
+  double n_rpm = 0;  ///< of the tool; 0: not known
+  double y_mm = 0;   ///< beside the axis, by Y or by C as a length
+  double C_deg = 0;  ///< of the spindle
+  /// How C is meant: as an angle, as a coordinate of a plane with X, around the part.
+  enum class C { angle, plane, cylinder };
+  C c = C::angle;
+};
+
 /// What a control holds until a block changes it.
 class ModalState {
  public:
@@ -48,6 +60,9 @@ class ModalState {
     return mm(value) * (point ? 1 : inch ? 1e-4 : 1e-3);
   }
   std::optional<double> x_mm, z_mm;  ///< of the tip; none: not known
+  MillingMode milling;
+  /// Ends it; of a plane of X and C the tool stands at the radius of its place.
+  void end_milling();
   NoseCompensation nose;
   Corner corner;
   void lose_place() { x_mm.reset(), z_mm.reset(); }
@@ -74,9 +89,11 @@ class ModalState {
  private:
   toolpath::Step conditions(const toolpath::Move& move, double lead_mm);
   void append(const toolpath::Move& move, double lead_mm);
+  void mill(const toolpath::Move& move);
   void break_corner(const toolpath::Move& next);
 
   std::size_t moves_ = 0, moves_max_;
+  std::set<int> milled_by_;  // tools
 };
 
 }  // namespace turnwright::review

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numbers>
 #include <utility>
 
 #include "contour_cycle.hpp"
@@ -15,6 +16,7 @@
 #include "flow.hpp"
 #include "g7x_cycle.hpp"
 #include "macro_statements.hpp"
+#include "milling_words.hpp"
 #include "modal_state.hpp"
 #include "o_words.hpp"
 #include "okuma_lap.hpp"
@@ -161,6 +163,7 @@ class ProgramReader {
     if (directs(text)) return;
     set_place_variables();
     auto block = block_of(text, language());
+    if (siemens_ && transforms(block)) return;
     const auto call = siemens_ && SiemensCycles::knows(block.rest)
                           ? std::exchange(block.rest, {})
                           : std::string();
@@ -170,6 +173,14 @@ class ProgramReader {
     evaluate(block, flow_.parameters);
     take(block);
     if (!call.empty()) siemens_cycle(call);
+  }
+
+  // "TRACYL(40)", "TRANSMIT(1)": words with values in brackets.
+  bool transforms(Block& block) {
+    const auto [name, rest] = name_at_front(block.rest);
+    if ((name != "tracyl" && name != "transmit") || !rest.starts_with('(')) return false;
+    milling({name == "tracyl" ? MillingWord::What::cylinder : MillingWord::What::plane});
+    return true;
   }
 
   Language language() const { return flow_.parameters.language(); }
@@ -222,10 +233,14 @@ class ProgramReader {
     special_ = Special::none;
     nose_here_ = false;
     corner_here_ = {};
+    driven_here_ = block.find("$") && block.value("$") != 0;
     for (const auto& w : block.words)
-      if (w.name == "G" && w.value) code(*w.value, block);
+      if (const auto m = milling_word(control_, w)) milling(*m);
     for (const auto& w : block.words)
-      if (w.name != "G") word(w);
+      if (w.name == "G" && w.value && !milling_word(control_, w)) code(*w.value, block);
+    begin_milling_by_axes(block);
+    for (const auto& w : block.words)
+      if (w.name != "G" && !milling_word(control_, w)) word(w);
     tell_repeated(block);
     if (motion_ < 4) box_end_.reset();
     if (special_ == Special::done) return;
@@ -240,6 +255,49 @@ class ProgramReader {
     special_ == Special::dwell ? dwell(block) : move(block);
     for (const auto& w : block.words)
       if (w.name == "M" && w.value) ends(static_cast<int>(*w.value), block);
+  }
+
+  void milling(const MillingWord& m) {
+    using Said = MillingWord::What;
+    auto& mode = s_.milling;
+    switch (m.what) {
+      case Said::ends:
+        return s_.end_milling();
+      case Said::stops:
+        return;
+      case Said::plane_ends: {
+        const double n = mode.n_rpm;
+        s_.end_milling();
+        mode = {.on = true, .n_rpm = n};
+        break;
+      }
+      case Said::speed:
+        mode.n_rpm = m.value;
+        break;
+      case Said::plane:
+        mode.c = MillingMode::C::plane;
+        break;
+      case Said::cylinder:
+        mode.c = MillingMode::C::cylinder;
+        break;
+      case Said::begins:
+        break;
+    }
+    mode.on = true;
+    s_.turning = false;
+  }
+
+  // C and Y are words of driven tools but where the spindle turns and the tool feeds: a
+  // phase of a thread, or a chamfer.
+  void begin_milling_by_axes(const Block& block) {
+    const bool axis = block.find("C") || block.find("Y") || block.find("H");
+    if (!axis || in_contour_ || s_.milling.on || special_ != Special::none) return;
+    if (block.find("H") && !system_a(control_)) return;
+    if (motion_ > 1 || (motion_ == 1 && s_.turning)) return;
+    const bool stays = block.value("Y") == 0 && !block.find("C") && !block.find("H");
+    if (stays && s_.turning) return;  // a slide sent to the axis before turning
+    s_.milling.on = true;
+    s_.turning = false;
   }
 
   void code(double value, const Block& block) {
@@ -396,6 +454,8 @@ class ProgramReader {
     if (w.name == "F" && motion_ != 92 && special_ != Special::thread_cycle &&
         special_ != Special::tap)
       feed(value);
+    else if (w.name == "S" && (s_.milling.on || driven_here_))
+      s_.milling.n_rpm = value;
     else if (w.name == "S")
       special_ == Special::limit ? limit(value) : speed(value);
     else if (w.name == "LIMS" || (w.name == "D" && control_ == Control::linuxcnc &&
@@ -420,7 +480,8 @@ class ProgramReader {
       corner_here_ = {
           w.name == "A" ? Corner::Form::rounded : Corner::Form::chamfer_rounded,
           s_.mm(value)};
-    else if (w.name.size() == 1 &&
+    else if (w.name.size() == 1 && !(s_.milling.on && (w.name == "C" || w.name == "Y")) &&
+             !(w.name == "Y" && value == 0 && motion_ == 0) &&
              std::string_view("ABCVY").find(w.name) != std::string_view::npos)
       s_.unknown(w.text, "Only the axes X and Z are followed.");
     if (w.name == "E" && special_ == Special::none && motion_ < 4)
@@ -475,7 +536,11 @@ class ProgramReader {
   }
 
   void machine(int m, const std::string& text) {
-    if (m == 3 || m == 4) s_.turning = true;
+    if ((m == 3 || m == 4) && driven_here_) s_.milling.on = true, s_.turning = false;
+    if ((m == 3 || m == 4) && !driven_here_) {
+      if (s_.milling.on) s_.end_milling();
+      s_.turning = true;
+    }
     if (m == 6) s_.tool = s_.chosen_tool;
     if (m == 198) s_.unknown(text, "The subprogram is not in the text.");
   }
@@ -483,7 +548,7 @@ class ProgramReader {
   // Codes that act after the motion of their block.
   void ends(int m, const Block& block) {
     if (m == 0 || m == 1) s_.stop();
-    if (m == 5) s_.turning = false;
+    if (m == 5 && !driven_here_) s_.turning = false;
     const bool siemens_end = siemens_ && (m == 2 || m == 17 || m == 30);
     if (siemens_end && !in_contour_ && flow_.leave_program()) return;
     if (m == 2 || m == 30 || siemens_end) ended_ = true;
@@ -562,9 +627,11 @@ class ProgramReader {
     return t;
   }
 
-  static bool names_a_place(const Block& block, bool arcs) {
+  bool names_a_place(const Block& block, bool arcs) const {
     for (const char* name : {"X", "Z", "U", "W"})
       if (block.find(name)) return true;
+    if (s_.milling.on && (block.find("C") || block.find("Y") || block.find("H")))
+      return true;
     return arcs && (block.find("I") || block.find("K"));
   }
 
@@ -572,9 +639,58 @@ class ProgramReader {
     if (special_ == Special::limit || !names_a_place(block, motion_ == 2 || motion_ == 3))
       return;
     const auto t = target(block);
-    straight_or_arc(block, t);
+    if (s_.milling.on && motion_ <= 3)
+      driven(block, t);
+    else
+      straight_or_arc(block, t);
     s_.corner = corner_here_;
     call_modal_macro();
+  }
+
+  // Coordinates beside the axis: Y, or C as a length; an arc through them takes the time of
+  // its own length.
+  std::optional<double> beside(const Block& block) const {
+    const auto length = [&](const char* name) -> std::optional<double> {
+      const auto* w = block.find(name);
+      if (!w || !w->value) return std::nullopt;
+      const bool adds = w->meant == Word::Meant::incremental ||
+                        (w->meant == Word::Meant::by_mode && s_.incremental);
+      return s_.mm(*w->value) + (adds ? s_.milling.y_mm : 0);
+    };
+    if (const auto y = length("Y")) return y;
+    if (s_.milling.c == MillingMode::C::plane) return length("C");
+    return std::nullopt;
+  }
+  void driven(const Block& block, const Target& t) {
+    auto& mode = s_.milling;
+    const double n = mode.n_rpm;
+    const double feed = s_.per_revolution ? s_.F * n : s_.F;
+    if (const auto* C = block.find("C");
+        C && C->value && mode.c != MillingMode::C::plane) {
+      const double turn = std::abs(*C->value - std::exchange(mode.C_deg, *C->value));
+      if (motion_ != 0 && feed > 0 && !t.x && !t.z) s_.dwell(turn / feed);
+    }
+    const double x = t.x.value_or(s_.x_mm.value_or(0)),
+                 z = t.z.value_or(s_.z_mm.value_or(0));
+    if ((!t.x && !s_.x_mm) || (!t.z && !s_.z_mm))
+      return s_.straight(Move::Kind::rapid, t.x, t.z);
+    const double y = beside(block).value_or(mode.y_mm);
+    const bool flat = y == mode.y_mm && s_.plane == 18;
+    if (motion_ >= 2 && flat) return straight_or_arc(block, t);
+    if (motion_ >= 2 && feed > 0 && s_.x_mm && s_.z_mm)
+      s_.dwell(longer_arc_mm(block, {x - *s_.x_mm, z - *s_.z_mm}, y - mode.y_mm) / feed);
+    Move m{motion_ == 0 ? Move::Kind::rapid : Move::Kind::feed, x, z};
+    m.y_mm = y;
+    s_.to(m);
+  }
+  // By how much an arc of R is longer than its chord.
+  double longer_arc_mm(const Block& block, const Point& way, double dy) const {
+    const double chord = std::hypot(way.h_mm, way.z_mm, dy);
+    const auto R = block.value(siemens_ ? "CR" : "R");
+    const double r = R ? std::abs(s_.mm(*R)) : 0;
+    if (!(chord > 0) || !(r >= chord / 2)) return 0;
+    const double angle = 2 * std::asin(chord / (2 * r));
+    return r * (*R < 0 ? 2 * std::numbers::pi - angle : angle) - chord;
   }
 
   void straight_or_arc(const Block& block, const Target& t) {
@@ -809,7 +925,8 @@ class ProgramReader {
   double lead_mm_ = 0;
   std::optional<Point> box_end_;  // of the cycle before
   bool ended_ = false, in_contour_ = false;
-  bool nose_here_ = false;  // G40 to G42 in the block
+  bool nose_here_ = false;    // G40 to G42 in the block
+  bool driven_here_ = false;  // "$1" in the block
   Corner corner_here_;
   int cycle_code_ = 0;
   struct ModalMacro {

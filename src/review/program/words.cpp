@@ -374,7 +374,9 @@ Block block_of(std::string_view line, Language language) {
       continue;
     }
     in.back_to(start);
-    const auto word = is_letter(c) ? word_of(in, language) : std::nullopt;
+    // "$1", the spindle of a word in LinuxCNC.
+    const bool spindle = c == '$' && language == Language::linuxcnc;
+    const auto word = is_letter(c) || spindle ? word_of(in, language) : std::nullopt;
     if (!word) {
       in.back_to(start);
       block.rest = in.rest();
