@@ -152,6 +152,27 @@ TEST(Review, FollowsOkumasLap) {
                {1.5, 2.5, 2.5, 2.5, 0.6, 0.4});
 }
 
+/// Whether a cut of d2 keeps its tool's least depth, 0.6 mm.
+bool keeps_least_depth(const Review& r, std::size_t cut) {
+  std::size_t i = 0;
+  for (const auto& c : r.setups[0].cuts)
+    if (c.on == "d2" && i++ == cut)
+      for (const auto& l : c.limits)
+        if (l.name == "least depth of cut") return l.margin > -0.01;
+  return true;
+}
+
+// Thin passes are told of a bar from the first on; 0.5 mm is less than 0.6 mm.
+TEST(Review, TellsPassesThatAreTooThin) {
+  EXPECT_FALSE(
+      keeps_least_depth(reviewed(kStart + "G0 X49. Z4.\nG1 Z-40. F0.25\nG0 X60."), 0));
+  EXPECT_TRUE(
+      keeps_least_depth(reviewed(kStart + "G0 X48. Z4.\nG1 Z-40. F0.25\nG0 X60."), 0));
+  EXPECT_FALSE(keeps_least_depth(
+      reviewed(kStart + "G0 X46. Z4.\nG1 Z-40. F0.25\nG0 X60.\nZ4.\nX45.\nG1 Z-40.\n"),
+      0));
+}
+
 // What the edge wears, and the grip by VDI 3106, whose lever is the part before the cut.
 TEST(Review, CountsEdgesAndGrip) {
   const auto r = reviewed(kStart + "G0 X44. Z4.\nG1 Z-40. F0.25\nG0 X60.");
