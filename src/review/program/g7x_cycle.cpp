@@ -160,7 +160,8 @@ class G7x {
     const double R = radius(w), off = at_level - level(w.centre);
     const double half = std::sqrt(std::max(0.0, R * R - off * off));
     const double a = place(w.centre) - half, b = place(w.centre) + half;
-    const auto [low, high] = std::minmax({place(w.from), place(w.to)});
+    const double low = std::min(place(w.from), place(w.to));
+    const double high = std::max(place(w.from), place(w.to));
     const auto beyond = [&](double p) { return std::max({low - p, p - high, 0.0}); };
     return beyond(a) < beyond(b) ? a : b;
   }

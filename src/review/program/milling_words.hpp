@@ -4,7 +4,7 @@
 #include "modal_state.hpp"
 #include "words.hpp"
 
-/// Words of driven tools and of the main spindle as an axis.
+/// Words and moves of driven tools, with the main spindle as an axis.
 namespace turnwright::review {
 
 /// What a word says about them.
@@ -28,5 +28,19 @@ struct MillingWord {
 /// Source: [Milling words] in docs/bibliography.md; G12.1, G7.1 and G137 from knowledge of
 /// the controls.
 std::optional<MillingWord> milling_word(gcode::Control control, const Word& word);
+
+/// Does what a word says.
+void take_up(ModalState& s, const MillingWord& word);
+
+/// Whether a block's axes C, Y or H belong to a driven tool: not where the spindle turns and
+/// the tool feeds, which is the phase of a thread or a chamfer, nor where Y stays on the axis.
+bool begins_milling(const ModalState& s, gcode::Control control, int motion,
+                    const Block& block);
+
+/// A move by G0 to G3 of a driven tool, with C and Y.  A feed of C alone waits for its
+/// degrees, an arc that leaves the plane of X and Z for what it is longer than its chord.
+/// @return false for an arc in that plane, which is not made.
+bool driven_move(ModalState& s, gcode::Control control, int motion, const Block& block,
+                 std::optional<double> x_mm, std::optional<double> z_mm);
 
 }  // namespace turnwright::review

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <numbers>
 #include <utility>
 
 #include "contour_cycle.hpp"
@@ -179,7 +178,8 @@ class ProgramReader {
   bool transforms(Block& block) {
     const auto [name, rest] = name_at_front(block.rest);
     if ((name != "tracyl" && name != "transmit") || !rest.starts_with('(')) return false;
-    milling({name == "tracyl" ? MillingWord::What::cylinder : MillingWord::What::plane});
+    take_up(s_,
+            {name == "tracyl" ? MillingWord::What::cylinder : MillingWord::What::plane});
     return true;
   }
 
@@ -235,10 +235,12 @@ class ProgramReader {
     corner_here_ = {};
     driven_here_ = block.find("$") && block.value("$") != 0;
     for (const auto& w : block.words)
-      if (const auto m = milling_word(control_, w)) milling(*m);
+      if (const auto m = milling_word(control_, w)) take_up(s_, *m);
     for (const auto& w : block.words)
       if (w.name == "G" && w.value && !milling_word(control_, w)) code(*w.value, block);
-    begin_milling_by_axes(block);
+    if (!in_contour_ && special_ == Special::none &&
+        begins_milling(s_, control_, motion_, block))
+      take_up(s_, {MillingWord::What::begins});
     for (const auto& w : block.words)
       if (w.name != "G" && !milling_word(control_, w)) word(w);
     tell_repeated(block);
@@ -255,49 +257,6 @@ class ProgramReader {
     special_ == Special::dwell ? dwell(block) : move(block);
     for (const auto& w : block.words)
       if (w.name == "M" && w.value) ends(static_cast<int>(*w.value), block);
-  }
-
-  void milling(const MillingWord& m) {
-    using Said = MillingWord::What;
-    auto& mode = s_.milling;
-    switch (m.what) {
-      case Said::ends:
-        return s_.end_milling();
-      case Said::stops:
-        return;
-      case Said::plane_ends: {
-        const double n = mode.n_rpm;
-        s_.end_milling();
-        mode = {.on = true, .n_rpm = n};
-        break;
-      }
-      case Said::speed:
-        mode.n_rpm = m.value;
-        break;
-      case Said::plane:
-        mode.c = MillingMode::C::plane;
-        break;
-      case Said::cylinder:
-        mode.c = MillingMode::C::cylinder;
-        break;
-      case Said::begins:
-        break;
-    }
-    mode.on = true;
-    s_.turning = false;
-  }
-
-  // C and Y are words of driven tools but where the spindle turns and the tool feeds: a
-  // phase of a thread, or a chamfer.
-  void begin_milling_by_axes(const Block& block) {
-    const bool axis = block.find("C") || block.find("Y") || block.find("H");
-    if (!axis || in_contour_ || s_.milling.on || special_ != Special::none) return;
-    if (block.find("H") && !system_a(control_)) return;
-    if (motion_ > 1 || (motion_ == 1 && s_.turning)) return;
-    const bool stays = block.value("Y") == 0 && !block.find("C") && !block.find("H");
-    if (stays && s_.turning) return;  // a slide sent to the axis before turning
-    s_.milling.on = true;
-    s_.turning = false;
   }
 
   void code(double value, const Block& block) {
@@ -639,58 +598,11 @@ class ProgramReader {
     if (special_ == Special::limit || !names_a_place(block, motion_ == 2 || motion_ == 3))
       return;
     const auto t = target(block);
-    if (s_.milling.on && motion_ <= 3)
-      driven(block, t);
-    else
-      straight_or_arc(block, t);
+    const bool driven = s_.milling.on && motion_ <= 3 &&
+                        driven_move(s_, control_, motion_, block, t.x, t.z);
+    if (!driven) straight_or_arc(block, t);
     s_.corner = corner_here_;
     call_modal_macro();
-  }
-
-  // Coordinates beside the axis: Y, or C as a length; an arc through them takes the time of
-  // its own length.
-  std::optional<double> beside(const Block& block) const {
-    const auto length = [&](const char* name) -> std::optional<double> {
-      const auto* w = block.find(name);
-      if (!w || !w->value) return std::nullopt;
-      const bool adds = w->meant == Word::Meant::incremental ||
-                        (w->meant == Word::Meant::by_mode && s_.incremental);
-      return s_.mm(*w->value) + (adds ? s_.milling.y_mm : 0);
-    };
-    if (const auto y = length("Y")) return y;
-    if (s_.milling.c == MillingMode::C::plane) return length("C");
-    return std::nullopt;
-  }
-  void driven(const Block& block, const Target& t) {
-    auto& mode = s_.milling;
-    const double n = mode.n_rpm;
-    const double feed = s_.per_revolution ? s_.F * n : s_.F;
-    if (const auto* C = block.find("C");
-        C && C->value && mode.c != MillingMode::C::plane) {
-      const double turn = std::abs(*C->value - std::exchange(mode.C_deg, *C->value));
-      if (motion_ != 0 && feed > 0 && !t.x && !t.z) s_.dwell(turn / feed);
-    }
-    const double x = t.x.value_or(s_.x_mm.value_or(0)),
-                 z = t.z.value_or(s_.z_mm.value_or(0));
-    if ((!t.x && !s_.x_mm) || (!t.z && !s_.z_mm))
-      return s_.straight(Move::Kind::rapid, t.x, t.z);
-    const double y = beside(block).value_or(mode.y_mm);
-    const bool flat = y == mode.y_mm && s_.plane == 18;
-    if (motion_ >= 2 && flat) return straight_or_arc(block, t);
-    if (motion_ >= 2 && feed > 0 && s_.x_mm && s_.z_mm)
-      s_.dwell(longer_arc_mm(block, {x - *s_.x_mm, z - *s_.z_mm}, y - mode.y_mm) / feed);
-    Move m{motion_ == 0 ? Move::Kind::rapid : Move::Kind::feed, x, z};
-    m.y_mm = y;
-    s_.to(m);
-  }
-  // By how much an arc of R is longer than its chord.
-  double longer_arc_mm(const Block& block, const Point& way, double dy) const {
-    const double chord = std::hypot(way.h_mm, way.z_mm, dy);
-    const auto R = block.value(siemens_ ? "CR" : "R");
-    const double r = R ? std::abs(s_.mm(*R)) : 0;
-    if (!(chord > 0) || !(r >= chord / 2)) return 0;
-    const double angle = 2 * std::asin(chord / (2 * r));
-    return r * (*R < 0 ? 2 * std::numbers::pi - angle : angle) - chord;
   }
 
   void straight_or_arc(const Block& block, const Target& t) {
@@ -833,7 +745,7 @@ class ProgramReader {
     const auto label = label_in(block);
     const auto begins = label ? flow_.block(*label) : std::nullopt;
     const auto last = begins ? okuma_->end_of_contour(*begins) : std::nullopt;
-    if (!last || cycle_code_ == 84 || cycle_code_ == 88)
+    if (!last || *last <= *begins || cycle_code_ == 84 || cycle_code_ == 88)
       throw NotFollowed(
           "G85, G86 and G87 of a contour between G81 or G82 and G80 are followed.");
     const auto first = block_of(flow_.lines()[*begins], Language::okuma).value("G");

@@ -148,7 +148,8 @@ void thread(ModalState& s, const Call& c) {
   const double lead = s.mm(c.at(1)), half = s.diameter ? 0.5 : 1;
   const double kind = c.at(15), cuts = std::floor(c.at(13)), idle = std::floor(c.at(14));
   const double starts = std::max(1.0, std::floor(c.at(16)));
-  if (!(lead > 0) || !(cuts >= 0 && (cuts + idle + 1) * starts <= kMostThreadCuts) ||
+  if (!(lead > 0) ||
+      !(cuts >= 0 && idle >= 0 && (cuts + idle + 1) * starts <= kMostThreadCuts) ||
       !(kind >= 1 && kind <= 4))
     throw NotFollowed(
         "CYCLE97 is followed with PIT, up to 200 cuts and the kinds 1 to 4.");

@@ -146,6 +146,8 @@ TEST(OkumaPrograms, TellWhatTheyDoNotKnow) {
                            "NL G81\nG0 X20\nCALL O1\nG1 Z-9\nG80\nG85 NL D4",
                            "NL G81\nG0 X20\nG1 Z-9\nX15\nG80\nG85 NL D4"})
     EXPECT_FALSE(read(Control::okuma, kOkuma + text).unknown.empty()) << text;
+  // A definition that ends where it begins, in the first line.
+  EXPECT_FALSE(read(Control::okuma, "NL G81 G80\nG0 X9 Z9\nG85 NL D4").unknown.empty());
 }
 
 }  // namespace

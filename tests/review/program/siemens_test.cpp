@@ -41,6 +41,7 @@ TEST(SiemensExpressions, ReckonInTheirRanks) {
                                     {"R1=9 R2=4\nG1 X=R1-R2*2 Z=1", 1.0},
                                     {"G1 X=(2+3)*4 Z=-R9 R9=1", 20.0},
                                     {"G1 X=7 DIV 2", 3.0},
+                                    {"G1 X=2+7 DIV 2", 5.0},
                                     {"G1 X=7 MOD 4", 3.0},
                                     {"G1 X=7/2", 3.5},
                                     {"G1 X=SQRT(16)+POT(2)", 8.0},
@@ -259,6 +260,9 @@ TEST(SiemensThreads, HaveEqualSectionsOrDepths) {
   for (std::size_t i = 0; i < 3; ++i)
     EXPECT_NEAR(radii_of_threads(equal)[i], inner[i], 1e-12);
   EXPECT_EQ(ways(equal)[1], "G0 9 3");
+  EXPECT_FALSE(read(Control::siemens, kSiemens + "CYCLE97(1.5,,0,-20,20,20,3,2,0.9,0,0,0,"
+                                                 "999999,-999999,3,1)")
+                   .unknown.empty());
   // A tapered one: 1 mm on the radius over 20 mm, and so beyond both ends.
   const auto taper = read(Control::siemens,
                           kSiemens + "CYCLE97(1.5,,0,-20,20,22,2,0,0.5,0,0,0,1,0,1,1)");
