@@ -320,6 +320,83 @@ TEST(ReviewOfOwnPrograms, KeepsTheLimitsOverLowerStockOfForgings) {
   }
 }
 
+// Only the first pass over a forging's blank may be thin: neither the second nor the first at
+// another feed.
+TEST(ReviewOfOwnPrograms, TellsThinPassesOverForgingsBehindTheFirst) {
+  const auto& p = nc::test::planned(forging(false));
+  const auto& tool =
+      *std::ranges::find(p.part.tools, "PCLNL-CNMG120408-PM", &catalogue::Tool::id);
+  const auto told = [&](const std::string& text) {
+    const auto read = read_program(
+        "G99 T0101\nG97 S1000 M3\n" + text,
+        {.control = gcode::Control::fanuc, .n_max_rpm = p.part.machine.n_max_rpm});
+    const auto r = review(p.part, {{0, read}}, {{.number = 1, .turning = tool}});
+    for (const auto& c : r.setups[0].cuts)
+      for (const auto& l : c.limits)
+        if (l.name == "least depth of cut" && l.margin < -0.01) return true;
+    return false;
+  };
+  const std::string first = "G0 X57. Z4.\nG1 Z-20. F0.25\nG0 X60.\nZ4.\n";
+  EXPECT_FALSE(told(first));
+  EXPECT_TRUE(told(first + "X56.4\nG1 Z-20.\nG0 X60.\n"));
+  EXPECT_TRUE(told(first + "X56.4\nG1 Z-20. F0.3\nG0 X60.\n"));
+  EXPECT_FALSE(told(first + "X55.\nG1 Z-20. F0.3\nG0 X60.\n"));
+}
+
+// A facing tool takes a little of the seat at an undercut: no second pass that finishes it.
+TEST(ReviewOfOwnPrograms, CountsNoFinishingPassesBesideAShoulder) {
+  using nlohmann::json;
+  const json document{{"name", "seat"},
+                      {"material", "42CrMo4-QT"},
+                      {"machine", "lathe-medium"},
+                      {"damping_ratio", 0.4},
+                      {"batch", 20},
+                      {"stock",
+                       {{"kind", "bar"},
+                        {"diameter_mm", 69},
+                        {"length_mm", 46},
+                        {"left_allowance_mm", 1.5}}},
+                      {"outer",
+                       {{{"id", "d0"},
+                         {"kind", "cylinder"},
+                         {"length_mm", 25},
+                         {"diameter_mm", 64},
+                         {"fit", "k6"}},
+                        {{"id", "d1"},
+                         {"kind", "cylinder"},
+                         {"length_mm", 18},
+                         {"diameter_mm", 60},
+                         {"fit", "k6"},
+                         {"Ra_um", 1.6}}}},
+                      {"inner",
+                       {{{"id", "b"},
+                         {"kind", "cylinder"},
+                         {"length_mm", 43},
+                         {"diameter_mm", 18},
+                         {"from", "right"}}}},
+                      {"faces", {{{"id", "d0|d1"}, {"Ra_um", 1.6}}}},
+                      {"tolerances",
+                       {{{"id", "t0"},
+                         {"kind", "length"},
+                         {"between", {"d0|d1", "right"}},
+                         {"limits_mm", {0, 0.4}}}}},
+                      {"edges", {{{"at", "d0|d1"}, {"undercut", "E0.6x0.3"}}}},
+                      {"setups",
+                       {{{"hold", "left"}, {"clampings", {"chuck"}}},
+                        {{"hold", "right"}, {"clampings", {"chuck"}}}}}};
+  const auto& p = nc::test::planned(document);
+  ASSERT_EQ(p.plan.status, planning::PlanStatus::ok);
+  const auto r = reviewed(p, {.control = gcode::Control::fanuc});
+  bool beside = false;
+  for (const auto& c : r.review.setups[0].cuts)
+    for (const auto& pass : c.passes) beside = beside || (c.on == "d1" && pass.beside);
+  EXPECT_TRUE(beside);
+  for (const auto& o : reconstructed(p.part, r.review).operations)
+    if (o.kind == planning::OperationKind::finish) {
+      EXPECT_EQ(o.conditions.passes, 1) << o.id;
+    }
+}
+
 // Reamers and taps, whose words differ most.
 TEST(ReviewOfOwnPrograms, FollowsReamersAndTapsInEveryControl) {
   for (const char* name : nc::test::kWithHoles)

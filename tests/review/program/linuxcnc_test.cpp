@@ -171,6 +171,7 @@ TEST_F(ReadThroughLinuxCnc, RoughsAndFinishesContours) {
   for (const auto& [contour, cycle] : std::vector<std::pair<std::string, std::string>>{
            {outside, "G71 Q100 D0.5 I4 R1\n"},
            {outside, "G71.1 Q100 I5 R1\n"},
+           {outside, "G71 Q100 I4 R20\n"},
            {outside, "G71 Q100 X28 Z3 D0.2\n"},
            {outside, "G70 Q100\n"},
            {outside, "G70 Q100 X28 Z4 D1 P2\n"},
