@@ -135,7 +135,7 @@ WordFactors word_factors(const ReviewedSetup& setup, const TurningProgram& progr
 
 CorrectedText corrected_text(std::string_view text, gcode::Control control,
                              const WordFactors& factors) {
-  const bool names = control == gcode::Control::siemens;
+  const auto language = language_of(control);
   CorrectedText out;
   const auto lines = lines_of(text);
   for (std::size_t number = 1; number <= lines.size(); ++number) {
@@ -143,7 +143,7 @@ CorrectedText corrected_text(std::string_view text, gcode::Control control,
     for (const auto& [name, all] : {std::pair{"F", &factors.F}, {"S", &factors.S}}) {
       const auto factor = all->find(number);
       if (factor == all->end() || std::abs(factor->second - 1) < kAlike) continue;
-      const auto block = block_of(line, names);
+      const auto block = block_of(line, language);
       const auto* word = block.find(name);
       if (!word || !word->value) continue;
       const auto is = multiplied(*word, factor->second);

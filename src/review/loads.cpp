@@ -148,9 +148,16 @@ class Limits {
   std::vector<planning::ConstraintValue>& all_;
 };
 
+// Beside its own surface an edge takes what its corner meets, in the cut of that surface.
+bool has_least_depth(const planning::PreparedPart& part, CutOrder order, const Cut& cut,
+                     const PassCut& p) {
+  const bool meets_blank = order == CutOrder::first && &p == &cut.passes.front() &&
+                           !part.drawing.stock.outline.empty();
+  return !p.beside && !meets_blank;
+}
+
 void add_tool_limits(const catalogue::Tool& t, const PassCut& p, const Loads& l,
                      double f_mm_rev, Limits& limits) {
-  limits.add(Check::depth_min, p.ap_mm, catalogue::least_depth_mm(t));
   limits.add(Check::depth_max, p.ap_mm, t.ap_mm.upper);
   limits.add(Check::feed_min, f_mm_rev, t.f_mm_rev.lower);
   limits.add(Check::feed_max, f_mm_rev, std::min(t.f_mm_rev.upper, 0.8 * t.re_mm));
@@ -188,7 +195,7 @@ void add_machine_limits(const planning::PreparedPart& part, std::size_t setup,
 }  // namespace
 
 void add_loads(const planning::PreparedPart& part, std::size_t setup,
-               const MountedTool& tool, Cut& cut) {
+               const MountedTool& tool, CutOrder order, Cut& cut) {
   const Edge edge(part, tool);
   Limits limits(cut.limits);
   for (const auto& p : cut.passes) {
@@ -197,6 +204,8 @@ void add_loads(const planning::PreparedPart& part, std::size_t setup,
     cut.most_Fc_N =
         std::max(cut.most_Fc_N, edge.force(p, p.most_mm, cut.at.f_mm_rev).Fc_N);
     if (l.T_min > 0) cut.edges += p.time_min / l.T_min;
+    if (tool.turning && has_least_depth(part, order, cut, p))
+      limits.add(Check::depth_min, p.ap_mm, catalogue::least_depth_mm(*tool.turning));
     if (tool.turning) add_tool_limits(*tool.turning, p, l, cut.at.f_mm_rev, limits);
     if (tool.fixed && tool.fixed->Fc_max_N)
       limits.add(Check::force, l.Fc_N, *tool.fixed->Fc_max_N);

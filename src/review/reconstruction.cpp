@@ -13,6 +13,9 @@ namespace {
 using planning::OperationKind;
 using planning::OperationRequest;
 
+constexpr double kSame_mm = 1e-3;
+constexpr double kKept = 0.01;  // of a limit, by which it may be passed
+
 bool alike(const Cut& a, const Cut& b) {
   return a.tool == b.tool && a.at.f_mm_rev == b.at.f_mm_rev && a.at.S == b.at.S &&
          a.at.constant_surface_speed == b.at.constant_surface_speed;
@@ -89,7 +92,7 @@ class Reconstructing {
     const Cut* faced = nullptr;
     for (const auto* c : cuts_on(setup, face)) faced = c;
     if (!faced) return refuse(fmt::format("no program faces {}", face));
-    const auto passes = static_cast<int>(faced->passes.size());
+    const int passes = count(*faced);
     out_.operations.push_back(
         operation(setup.setup, OperationKind::face, face, *faced, passes, std::nullopt));
   }
@@ -112,6 +115,44 @@ class Reconstructing {
     return part::stock_of(d, i).most_mm / 2;
   }
 
+  // Passes of a cut over its own surface; all where it is cut beside others alone.
+  static std::vector<PassCut> own_passes(const Cut& c) {
+    std::vector<PassCut> own;
+    std::ranges::copy_if(c.passes, std::back_inserter(own),
+                         [](const PassCut& p) { return !p.beside; });
+    return own.empty() ? c.passes : own;
+  }
+  static int count(const Cut& c) { return static_cast<int>(own_passes(c).size()); }
+
+  // How many passes of the depth between the first and the last reach from the stock to the
+  // last: before lower stock of a casting or forging some cut nothing.
+  int passes_from_stock(int passes, const Cut& first, const Cut& last, double depth_mm,
+                        bool cone) const {
+    const auto a = own_passes(first), b = own_passes(last);
+    const double way = std::abs(reached_mm({a.front()}, inner(first), cone) -
+                                reached_mm(b, inner(first), cone));
+    if (part_.drawing.stock.outline.empty() || passes < 2 || !(way > kSame_mm))
+      return passes;
+    return std::max(passes, static_cast<int>(std::lround(depth_mm * (passes - 1) / way)));
+  }
+  bool inner(const Cut& c) const {
+    return c.kind == OperationKind::bore_rough || c.kind == OperationKind::bore_finish;
+  }
+
+  // Roughing leaves the finishing tool its least depth where the blocks' last decimal takes
+  // less than a hundredth of this.
+  template <class Element>
+  double roughed_mm(double reached, const Cut& last, const Element& e,
+                    bool in_bore) const {
+    const auto t = std::ranges::find(part_.tools, last.tool_id, &catalogue::Tool::id);
+    if (t == part_.tools.end() || e.left_mm != e.right_mm || count(last) != 1)
+      return reached;
+    const double least = catalogue::least_depth_mm(*t);
+    const double left = (in_bore ? -1 : 1) * (reached - e.left_mm / 2);
+    if (!(left < least && left > (1 - kKept) * least)) return reached;
+    return e.left_mm / 2 + (in_bore ? -1 : 1) * least;
+  }
+
   template <class Element>
   void add_element(const ReviewedSetup& setup, const Element& e, bool inner) {
     const auto cuts = cuts_on(setup, e.id);
@@ -124,18 +165,20 @@ class Reconstructing {
             fmt::format("{} is roughed with more than one tool, speed or feed", e.id));
     if (cuts.size() > 1) {
       int passes = 0;
-      for (std::size_t k = 0; k + 1 < cuts.size(); ++k)
-        passes += static_cast<int>(cuts[k]->passes.size());
-      const double depth =
-          std::abs(begun_mm(*cuts[0], e) - reached_mm(cuts[cuts.size() - 2]->passes,
-                                                      inner, e.left_mm != e.right_mm));
+      for (std::size_t k = 0; k + 1 < cuts.size(); ++k) passes += count(*cuts[k]);
+      const auto& before = *cuts[cuts.size() - 2];
+      const bool cone = e.left_mm != e.right_mm;
+      const double reached =
+          roughed_mm(reached_mm(own_passes(before), inner, cone), last, e, inner);
+      const double depth = std::abs(begun_mm(*cuts[0], e) - reached);
+      passes = passes_from_stock(passes, *cuts[0], before, depth, cone);
       out_.operations.push_back(
           operation(setup.setup, inner ? OperationKind::bore_rough : OperationKind::rough,
                     e.id, *cuts[0], passes, depth / passes));
     }
     out_.operations.push_back(
         operation(setup.setup, inner ? OperationKind::bore_finish : OperationKind::finish,
-                  e.id, last, static_cast<int>(last.passes.size()), std::nullopt));
+                  e.id, last, count(last), std::nullopt));
   }
 
   // A groove's blank is turned with an element beside it.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <stdexcept>
 
 #include "loads.hpp"
@@ -103,9 +104,10 @@ Review review(const planning::PreparedPart& part,
     const auto nose = [&](int number) { return nose_of(tools, number); };
     auto setup = follow(part, {p.setup, with_nose_paths(p.program, nose), p.zero_mm},
                         tools, workpiece);
+    std::set<std::string> cut_before;
     for (auto& c : setup.cuts)
       add_loads(part, p.setup, *std::ranges::find(tools, c.tool, &MountedTool::number),
-                c);
+                cut_before.insert(c.on).second ? CutOrder::first : CutOrder::later, c);
     add_edges(setup, tools);
     all.setups.push_back(std::move(setup));
   }

@@ -64,7 +64,7 @@ struct Reviewed {
   Review review;
 };
 
-// Programs that mill list their milling as not followed: here somebody mills.
+// Here somebody mills.
 nc::Programs turning_programs(const Planned& p) {
   auto part = p.part;
   if (part.machine.driven_tools) part.machine.driven_tools->c_axis = false;
@@ -250,6 +250,153 @@ TEST(ReviewOfOwnPrograms, GivesShouldersBetweenBoresToThePassThatFacesThem) {
   }
 }
 
+/// A forged flange between two shafts, one behind a cone.
+nlohmann::json forging(bool cone) {
+  using nlohmann::json;
+  json outer{
+      {{"id", "a"}, {"kind", "cylinder"}, {"length_mm", 60}, {"diameter_mm", 40}},
+      {{"id", "rim"}, {"kind", "cylinder"}, {"length_mm", 20}, {"diameter_mm", 90}}};
+  json outline{{{"length_mm", 60}, {"diameter_mm", 47}},
+               {{"length_mm", 24}, {"diameter_mm", 96}}};
+  if (cone) {
+    outer.push_back({{"id", "k"},
+                     {"kind", "cone"},
+                     {"length_mm", 30},
+                     {"left_mm", 70},
+                     {"right_mm", 50}});
+    outline.push_back({{"length_mm", 30}, {"left_mm", 80}, {"right_mm", 74}});
+  }
+  outer.push_back(
+      {{"id", "b"}, {"kind", "cylinder"}, {"length_mm", 42}, {"diameter_mm", 50}});
+  outline.push_back({{"length_mm", 42}, {"left_mm", 58}, {"right_mm", 56}});
+  return {{"name", cone ? "forging with a cone" : "forging"},
+          {"material", "C45"},
+          {"machine", "lathe-medium"},
+          {"stock",
+           {{"kind", "forging"},
+            {"left_allowance_mm", 2},
+            {"outline", outline},
+            {"limits_mm", {-0.5, 1}}}},
+          {"outer", outer},
+          {"setups",
+           {{{"hold", "left"}, {"grip_mm", 30}, {"clampings", {"chuck"}}},
+            {{"hold", "right"}, {"grip_mm", 30}, {"clampings", {"chuck"}}}}}};
+}
+
+// Passes that first reach the forged flange, or a collar that was turned before, take what
+// stands there; blocks with three decimals leave a finishing tool 0.2 um less than planned.
+TEST(ReviewOfOwnPrograms, KeepsTheLimitsOverLowerStockOfForgings) {
+  for (const bool cone : {false, true}) {
+    const auto& p = nc::test::planned(forging(cone));
+    ASSERT_EQ(p.plan.status, planning::PlanStatus::ok);
+    const auto r = reviewed(p, {.control = gcode::Control::fanuc});
+    double thinnest = 1;
+    for (const auto& s : r.review.setups) {
+      EXPECT_TRUE(s.unknown.empty());
+      for (const auto& c : s.cuts) {
+        for (const auto& pass : c.passes) thinnest = std::min(thinnest, pass.ap_mm);
+        for (const auto& l : c.limits)
+          EXPECT_TRUE(l.margin > -0.01) << cone << " " << c.on << ": " << l.name << " "
+                                        << l.value << " " << l.limit;
+      }
+    }
+    if (!cone) {
+      EXPECT_LT(thinnest, 0.6);  // what a roughing tool takes at least
+    }
+    const auto again = reconstructed(p.part, r.review);
+    EXPECT_TRUE(again.cannot.empty());
+    const auto q = with_operations(p.part, again.operations, r.tools);
+    const auto predicted = planning::predict(q);
+    EXPECT_EQ(predicted.status, planning::PlanStatus::ok) << cone;
+    // As many passes over the cone, and as deep, as the plan has.
+    for (const auto& o : again.operations)
+      for (const auto& setup : p.plan.setups)
+        for (const auto& planned : setup.operations)
+          if (planned.id == o.id && o.kind == planning::OperationKind::rough) {
+            EXPECT_EQ(o.conditions.passes, static_cast<int>(planned.passes.size()))
+                << o.id;
+            EXPECT_NEAR(*o.conditions.ap_mm, planned.passes[0].ap_mm, 1e-3) << o.id;
+          }
+  }
+}
+
+// Only the first pass over a forging's blank may be thin: neither the second nor the first at
+// another feed.
+TEST(ReviewOfOwnPrograms, TellsThinPassesOverForgingsBehindTheFirst) {
+  const auto& p = nc::test::planned(forging(false));
+  const auto& tool =
+      *std::ranges::find(p.part.tools, "PCLNL-CNMG120408-PM", &catalogue::Tool::id);
+  const auto told = [&](const std::string& text) {
+    const auto read = read_program(
+        "G99 T0101\nG97 S1000 M3\n" + text,
+        {.control = gcode::Control::fanuc, .n_max_rpm = p.part.machine.n_max_rpm});
+    const auto r = review(p.part, {{0, read}}, {{.number = 1, .turning = tool}});
+    for (const auto& c : r.setups[0].cuts)
+      for (const auto& l : c.limits)
+        if (l.name == "least depth of cut" && l.margin < -0.01) return true;
+    return false;
+  };
+  const std::string first = "G0 X57. Z4.\nG1 Z-20. F0.25\nG0 X60.\nZ4.\n";
+  EXPECT_FALSE(told(first));
+  EXPECT_TRUE(told(first + "X56.4\nG1 Z-20.\nG0 X60.\n"));
+  EXPECT_TRUE(told(first + "X56.4\nG1 Z-20. F0.3\nG0 X60.\n"));
+  EXPECT_FALSE(told(first + "X55.\nG1 Z-20. F0.3\nG0 X60.\n"));
+}
+
+// A facing tool takes a little of the seat at an undercut: no second pass that finishes it.
+TEST(ReviewOfOwnPrograms, CountsNoFinishingPassesBesideAShoulder) {
+  using nlohmann::json;
+  const json document{{"name", "seat"},
+                      {"material", "42CrMo4-QT"},
+                      {"machine", "lathe-medium"},
+                      {"damping_ratio", 0.4},
+                      {"batch", 20},
+                      {"stock",
+                       {{"kind", "bar"},
+                        {"diameter_mm", 69},
+                        {"length_mm", 46},
+                        {"left_allowance_mm", 1.5}}},
+                      {"outer",
+                       {{{"id", "d0"},
+                         {"kind", "cylinder"},
+                         {"length_mm", 25},
+                         {"diameter_mm", 64},
+                         {"fit", "k6"}},
+                        {{"id", "d1"},
+                         {"kind", "cylinder"},
+                         {"length_mm", 18},
+                         {"diameter_mm", 60},
+                         {"fit", "k6"},
+                         {"Ra_um", 1.6}}}},
+                      {"inner",
+                       {{{"id", "b"},
+                         {"kind", "cylinder"},
+                         {"length_mm", 43},
+                         {"diameter_mm", 18},
+                         {"from", "right"}}}},
+                      {"faces", {{{"id", "d0|d1"}, {"Ra_um", 1.6}}}},
+                      {"tolerances",
+                       {{{"id", "t0"},
+                         {"kind", "length"},
+                         {"between", {"d0|d1", "right"}},
+                         {"limits_mm", {0, 0.4}}}}},
+                      {"edges", {{{"at", "d0|d1"}, {"undercut", "E0.6x0.3"}}}},
+                      {"setups",
+                       {{{"hold", "left"}, {"clampings", {"chuck"}}},
+                        {{"hold", "right"}, {"clampings", {"chuck"}}}}}};
+  const auto& p = nc::test::planned(document);
+  ASSERT_EQ(p.plan.status, planning::PlanStatus::ok);
+  const auto r = reviewed(p, {.control = gcode::Control::fanuc});
+  bool beside = false;
+  for (const auto& c : r.review.setups[0].cuts)
+    for (const auto& pass : c.passes) beside = beside || (c.on == "d1" && pass.beside);
+  EXPECT_TRUE(beside);
+  for (const auto& o : reconstructed(p.part, r.review).operations)
+    if (o.kind == planning::OperationKind::finish) {
+      EXPECT_EQ(o.conditions.passes, 1) << o.id;
+    }
+}
+
 // Reamers and taps, whose words differ most.
 TEST(ReviewOfOwnPrograms, FollowsReamersAndTapsInEveryControl) {
   for (const char* name : nc::test::kWithHoles)
@@ -271,15 +418,16 @@ TEST(ReviewOfOwnPrograms, FollowsReamersAndTapsInEveryControl) {
     }
 }
 
-// A part with a drill, a groove and a thread in every control, threads by cycles too.
+// A part with a drill, a groove and a thread in every control, holes and threads by cycles
+// too.
 TEST(ReviewOfOwnPrograms, IsTheSameInEveryControl) {
   const auto& p = nc::test::planned_reference("threaded-spindle");
   const auto one = reviewed(p, {.control = gcode::Control::linuxcnc});
   for (const auto& d : gcode::dialects())
     for (const bool cycles : {false, true}) {
-      if (cycles && d.thread_cycle.empty()) continue;
-      if (cycles && d.control == gcode::Control::siemens) continue;  // below
-      const auto r = reviewed(p, {.control = d.control, .cycles = cycles});
+      const auto r = reviewed(p, {.control = d.control,
+                                  .cycles = cycles && !d.thread_cycle.empty(),
+                                  .drill_cycles = cycles});
       for (std::size_t i = 0; i < r.review.setups.size(); ++i) {
         const auto &a = one.review.setups[i], &b = r.review.setups[i];
         EXPECT_TRUE(b.unknown.empty()) << d.id << ": " << b.unknown[0].what;
@@ -295,16 +443,41 @@ TEST(ReviewOfOwnPrograms, IsTheSameInEveryControl) {
     }
 }
 
-// Calls of Siemens' cycles are not followed, and told.
-TEST(ReviewOfOwnPrograms, TellsTheCallsOfCyclesItDoesNotFollow) {
-  const auto& p = nc::test::planned_reference("threaded-spindle");
-  const auto r = reviewed(p, {.control = gcode::Control::siemens, .cycles = true});
-  const auto told = std::ranges::any_of(r.review.setups, [](const auto& s) {
-    return std::ranges::any_of(s.unknown, [](const auto& u) {
-      return u.what.find("CYCLE97") != std::string::npos;
-    });
-  });
-  EXPECT_TRUE(told);
+// A keyway and a flat are named with their tools and take their time; the surfaces turned
+// before and behind them are reviewed as without them.
+TEST(ReviewOfOwnPrograms, TellsOfMillingThatItIsNotReviewed) {
+  const auto& p = nc::test::planned_reference("keyed-shaft");
+  const auto turned = reviewed(p, {.control = gcode::Control::linuxcnc});
+  for (const auto& d : gcode::dialects()) {
+    if (!d.y_axis) continue;  // the flat needs it
+    nc::Settings settings{.control = d.control};
+    const bool builders = d.c_axis_is_builders || d.tool_on.empty();
+    if (d.c_axis_is_builders)
+      settings.milling = {.c_axis_on = "M35", .c_axis_off = "M34"};
+    if (builders)
+      settings.milling.tool_on =
+          d.control == gcode::Control::siemens ? "S2={S} M2=3" : "S{S} M13";
+    if (builders)
+      settings.milling.tool_off = d.control == gcode::Control::siemens ? "M2=5" : "M15";
+    auto programs = nc::programs(p.part, p.plan);
+    nc::number_tools(programs.setups, settings);
+    std::vector<ReviewedProgram> read;
+    for (const auto& s : programs.setups)
+      read.push_back({s.setup, read_program(nc::text(s, settings),
+                                            {.control = d.control,
+                                             .n_max_rpm = p.part.machine.n_max_rpm})});
+    const auto r = review(p.part, read, turret(p, programs));
+    ASSERT_EQ(r.setups[0].unknown.size(), 2U) << d.id;
+    EXPECT_TRUE(r.setups[1].unknown.empty()) << d.id;
+    for (const auto& u : r.setups[0].unknown)
+      EXPECT_TRUE(u.what.starts_with("milling by T")) << d.id << u.what << u.why;
+    ASSERT_EQ(r.setups[0].cuts.size(), turned.review.setups[0].cuts.size()) << d.id;
+    EXPECT_TRUE(r.setups[0].rapids.empty()) << d.id;
+    const auto& minutes = programs.setups[0].minutes;
+    EXPECT_NEAR(r.setups[0].minutes.total() / (minutes.total() - minutes.operator_stops),
+                1, 0.005)
+        << d.id;
+  }
 }
 
 // A knurling wheel cuts nothing, and what it does is told.

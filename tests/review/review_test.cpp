@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 
 #include "../nc/plans.hpp"
 #include "turnwright/cutting/cut.hpp"
@@ -106,6 +107,70 @@ TEST(Review, FollowsNoseCompensation) {
   };
   EXPECT_NEAR(cone_mm("G42\n"), 35, 1e-3);
   EXPECT_NEAR(cone_mm(""), 35 + 2 * 0.8 * (1.25 - std::sqrt(1 + 0.25 * 0.25)), 1e-3);
+}
+
+/// A cycle's program that leaves the shaft as drawn, and the depths of its passes over d2.
+void expect_shaft(Control control, const std::string& text,
+                  const std::vector<double>& expected) {
+  const auto& p = shaft();
+  const auto r = review(
+      p,
+      {{0, read_program(text, {.control = control, .n_max_rpm = p.machine.n_max_rpm})}},
+      {{.number = 1, .turning = tool("PCLNL-CNMG120408-PM")}});
+  for (const auto& u : r.setups[0].unknown) ADD_FAILURE() << u.what << u.why;
+  EXPECT_TRUE(r.setups[0].rapids.empty());
+  std::map<std::string, double> sizes;
+  for (const auto& s : r.sizes) sizes[s.on] = s.diameter_mm;
+  EXPECT_NEAR(sizes["d2"], 30, 2e-3);
+  EXPECT_NEAR(sizes["c"], 35, 2e-3);
+  std::vector<double> depths;
+  for (const auto& c : r.setups[0].cuts)
+    if (c.on == "d2")
+      for (const auto& pass : c.passes) depths.push_back(pass.ap_mm);
+  ASSERT_EQ(depths.size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i)
+    EXPECT_NEAR(depths[i], expected[i], 2e-3);
+}
+
+// CYCLE95 to 52 mm in 4 passes of 2.75 mm, of which the first takes 1.75 mm of the stock of
+// 50 mm; finishing with the nose beside the contour leaves the part as drawn.
+TEST(Review, FollowsSiemensStockRemoval) {
+  expect_shaft(Control::siemens,
+               "G18 G90 G95 DIAMON\nT1 D1\nG97 S1000 M3\n"
+               "CYCLE95(\"SHAFT\",3,,,,0.25,,0.25,9)\nM30\nPROC SHAFT\n"
+               "G1 X30 Z4\nZ-40\nX40 Z-60\nZ-70\nX52\nRET\n",
+               {1.75, 2.75, 2.75, 2.75});
+}
+
+// LAP from 52 mm by 5 mm of the diameter: 47, 42, 37 and 32 mm, the contour 0.4 mm beside
+// the drawn one, then this.
+TEST(Review, FollowsOkumasLap) {
+  expect_shaft(Control::okuma,
+               "G90 G95\nT010101\nG97 S1000 M3\nG0 X52 Z4\nNLAP1 G81\nG42 G0 X30\n"
+               "G1 Z-40 F0.25\nX40 Z-60\nZ-70\nX52\nG80\nG85 NLAP1 D5 U0.8 F0.25\n"
+               "G87 NLAP1\nG40 G0 X60\n",
+               {1.5, 2.5, 2.5, 2.5, 0.6, 0.4});
+}
+
+/// Whether a cut of d2 keeps its tool's least depth, 0.6 mm.
+bool keeps_least_depth(const Review& r, std::size_t cut) {
+  std::size_t i = 0;
+  for (const auto& c : r.setups[0].cuts)
+    if (c.on == "d2" && i++ == cut)
+      for (const auto& l : c.limits)
+        if (l.name == "least depth of cut") return l.margin > -0.01;
+  return true;
+}
+
+// Thin passes are told of a bar from the first on; 0.5 mm is less than 0.6 mm.
+TEST(Review, TellsPassesThatAreTooThin) {
+  EXPECT_FALSE(
+      keeps_least_depth(reviewed(kStart + "G0 X49. Z4.\nG1 Z-40. F0.25\nG0 X60."), 0));
+  EXPECT_TRUE(
+      keeps_least_depth(reviewed(kStart + "G0 X48. Z4.\nG1 Z-40. F0.25\nG0 X60."), 0));
+  EXPECT_FALSE(keeps_least_depth(
+      reviewed(kStart + "G0 X46. Z4.\nG1 Z-40. F0.25\nG0 X60.\nZ4.\nX45.\nG1 Z-40.\n"),
+      0));
 }
 
 // What the edge wears, and the grip by VDI 3106, whose lever is the part before the cut.

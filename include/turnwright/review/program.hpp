@@ -41,12 +41,15 @@ struct ReadMove {
   std::size_t line = 0;
   WordsInForce words = {};
   NoseCompensation nose = {};
+  double from_y_mm = 0;  ///< of a driven tool
 };
 
 /// Moves at one tool, spindle speed and feed, or a stop.
 struct Run {
-  toolpath::Step step;  ///< conditions alone: neither comments nor moves
+  toolpath::Step step;  ///< conditions alone: neither comments nor moves; of driven tools
+                        ///< `milling`
   std::vector<ReadMove> moves = {};
+  double wait_min = 0;  ///< dwells between and behind them
 };
 
 struct TurningProgram {
@@ -74,18 +77,24 @@ struct ReadOptions {
 ///
 ///     fanuc, haas     G90, G94 (straight), G92, G76 (Fanuc's two blocks, Haas' one), G71
 ///                     and G72 of contours that go one way in X and in Z, G73, G70, G74,
-///                     G75, in two blocks or one
-///     fanuc-b         G76
-///     linuxcnc        G76
-///     okuma           G33 comes back to where it began
+///                     G75, in two blocks or one; G83, G85, of Haas G81, G82, G89
+///     fanuc-b         G76, G83, G85
+///     linuxcnc        G70 to G72, G71.1, G72.1; G76, G73, G81 to G83, G85, G89
+///     okuma           G33 comes back to where it began; G85 to G87 of LAP, G74
+///     siemens         CYCLE81 to 85, 840, 95, 97
 ///
 /// Threads of a cycle become plain moves, the k-th cut of a depth
 ///
 ///     d_k = d_1 k^(1/R), R = 2 but for LinuxCNC's word R, until the whole depth.       (1)
 ///
 /// Variables, expressions, subprograms, branches and loops are executed: LinuxCNC's O words
-/// and #<name>, Fanuc's macro B, M97, M98, M99 and G65; at most 200,000 lines beyond each
+/// and #<name>, Fanuc's macro B, M97, M98, M99 and G65 to G67, Siemens' R and DEF, IF to UNTIL,
+/// labels and programs by name, Okuma's V, IF, GOTO and CALL; at most 200,000 lines beyond each
 /// once, and calls ten deep.
+///
+/// Moves while the main spindle is an axis (C, Y, codes of driven tools) have `milling`: they
+/// are not reviewed, which is told once a tool, but take time, and the place behind them is
+/// known.
 ///
 /// Reference returns move the tool to a place that is not known.  Everything else is listed
 /// under `unknown` with its line, and reading goes on; after a line that may have moved the

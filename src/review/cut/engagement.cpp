@@ -113,6 +113,7 @@ class Follower {
 
  private:
   void follow(const Run& run) {
+    out_.minutes.air += run.wait_min;
     if (run.step.stop) {
       end_pass();
       ++out_.stops;
@@ -120,6 +121,7 @@ class Follower {
     }
     if (run.step.tool != tool_number_) change_tool(run);
     at_ = &run.step;
+    if (run.step.milling) return mill(run);
     for (const auto& m : run.moves) {
       leave_if_asked();
       take_time(m);
@@ -128,6 +130,11 @@ class Follower {
       if (tool_ && m.from && !knurls() && !(rapid && edge_.threads)) move(m);
     }
     end_pass();
+  }
+
+  // Takes time and leaves the stock as it is.
+  void mill(const Run& run) {
+    for (const auto& m : run.moves) take_time(m);
   }
 
   void change_tool(const Run& run) {
@@ -142,7 +149,7 @@ class Follower {
                                 fmt::format("T{}", tool_number_),
                                 "A knurling wheel takes nothing off, and its forces are "
                                 "not known: its ways are not followed."});
-    } else if (missing_.insert(tool_number_).second) {
+    } else if (!run.step.milling && missing_.insert(tool_number_).second) {
       out_.unknown.push_back(
           {run.moves.empty() ? 0 : run.moves.front().line,
            tool_number_ > 0 ? fmt::format("T{}", tool_number_) : "no tool is called",
@@ -153,7 +160,8 @@ class Follower {
 
   void take_time(const ReadMove& m) {
     if (!m.from) return;
-    const Move from{Move::Kind::rapid, m.from->h_mm, m.from->z_mm};
+    Move from{Move::Kind::rapid, m.from->h_mm, m.from->z_mm};
+    from.y_mm = m.from_y_mm;
     out_.minutes.air += toolpath::move_min(*at_, from, m.to, part_.machine);
   }
 

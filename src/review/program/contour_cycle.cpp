@@ -65,6 +65,25 @@ class Levels {
     return true;
   }
 
+  /// Whether all passes of one depth, the largest not beyond the given one, were made.
+  bool cut_evenly(double depth, double retract, bool corners) {
+    const double top = level(contour_.back()), last = level(contour_.front());
+    const double n = std::ceil(outwards_ * (top - last) / depth - kLevel_mm);
+    if (!(n <= kMostPasses)) return false;
+    double before = top;
+    for (double k = 1; k <= n; ++k) {
+      const double at = top - (top - last) * k / n;
+      go(Kind::rapid, at, place_);
+      go(Kind::feed, at, reached(at));
+      if (corners) follow(at, before);
+      const Point now{*s_.x_mm, *s_.z_mm};
+      go(Kind::rapid, level(now) + outwards_ * retract, place(now) - forwards_ * retract);
+      go(Kind::rapid, level(now) + outwards_ * retract, place_);
+      before = at;
+    }
+    return true;
+  }
+
   /// Whether all passes were made.
   bool cut(double depth, double retract) {
     const double last = level(contour_.front());
@@ -91,6 +110,20 @@ class Levels {
   void go(Kind kind, double level, double place) {
     across_ ? s_.straight(kind, place, level) : s_.straight(kind, level, place);
   }
+  // Along the contour from one level to the next further out, or to its end.
+  void follow(double from, double to) {
+    std::size_t i = 1;
+    while (i + 1 < contour_.size() && outwards_ * (level(contour_[i]) - from) < 0) ++i;
+    const bool to_end = to == level(contour_.back());
+    for (; i < contour_.size(); ++i) {
+      const auto &a = contour_[i - 1], &b = contour_[i];
+      if (!to_end && outwards_ * (level(b) - to) > -kLevel_mm) {
+        const double u = (to - level(a)) / (level(b) - level(a));
+        return go(Kind::feed, to, std::lerp(place(a), place(b), std::clamp(u, 0.0, 1.0)));
+      }
+      if (b.h_mm != *s_.x_mm || b.z_mm != *s_.z_mm) go(Kind::feed, level(b), place(b));
+    }
+  }
   // Where the contour reaches a level, seen from its beginning.
   double reached(double at) const {
     for (std::size_t i = 1; i < contour_.size(); ++i) {
@@ -109,35 +142,124 @@ class Levels {
   double level_ = 0, place_ = 0, outwards_ = 1, forwards_ = -1;
 };
 
-// The contour's moves as feeds, shifted.
-void along(ModalState& s, const Contour& contour, double dx, double dz) {
-  for (const auto& run : contour.runs)
-    for (auto m : run.moves) {
-      if (m.to.kind == Kind::rapid) m.to.kind = Kind::feed;
-      m.to.x_mm += dx;
-      m.to.z_mm += dz;
-      m.to.centre.h_mm += dx;
-      m.to.centre.z_mm += dz;
-      s.to(m.to);
-    }
+// A contour moved away from the part by a distance, whose corners stay corners.  Out is to
+// the side of the point.
+std::vector<Point> beside(const std::vector<Point>& contour, double away, double side) {
+  const auto normal = [&](std::size_t i) {
+    const double h = contour[i + 1].h_mm - contour[i].h_mm;
+    const double z = contour[i + 1].z_mm - contour[i].z_mm;
+    const double length = std::hypot(h, z);
+    return length > 0 ? Point{-side * z / length, side * h / length} : Point{0, 0};
+  };
+  auto all = contour;
+  for (std::size_t i = 0; i < contour.size(); ++i) {
+    const auto a = normal(i > 0 ? i - 1 : 0);
+    const auto b = normal(std::min(i, contour.size() - 2));
+    const double share = away / (1 + a.h_mm * b.h_mm + a.z_mm * b.z_mm);
+    all[i].h_mm += share * (a.h_mm + b.h_mm);
+    all[i].z_mm += share * (a.z_mm + b.z_mm);
+  }
+  return all;
+}
+
+void shift(toolpath::Move& m, double dx, double dz) {
+  m.x_mm += dx;
+  m.z_mm += dz;
+  m.centre.h_mm += dx;
+  m.centre.z_mm += dz;
 }
 
 }  // namespace
 
+void along(ModalState& s, const Contour& contour, double dx, double dz) {
+  for (const auto& run : contour.runs)
+    for (auto m : run.moves) {
+      if (m.to.kind == Kind::rapid) m.to.kind = Kind::feed;
+      shift(m.to, dx, dz);
+      s.to(m.to);
+    }
+}
+
 void rough(ModalState& s, const Contour& contour, const ContourCycle& cycle,
            RoughingAlong direction) {
-  const auto name = direction == RoughingAlong::z ? "G71" : "G72";
   const auto all = points(contour, cycle);
   if (!s.x_mm || !s.z_mm || all.size() < 2 || !(cycle.depth_mm > 0))
-    return s.unknown(name, "Its contour, its depth or the tool's place is not known.");
+    return s.unknown(cycle.name,
+                     "Its contour, its depth or the tool's place is not known.");
   Levels levels(s, direction, all);
   if (!levels.steady())
-    return s.unknown(name, "Only contours that go one way in X and in Z are followed.");
+    return s.unknown(cycle.name,
+                     "Only contours that go one way in X and in Z are followed.");
   if (!levels.cut(cycle.depth_mm, cycle.retract_mm))
-    s.unknown(name, "It has more than 500 passes.");
+    s.unknown(cycle.name, "It has more than 500 passes.");
   levels.begin_contour();
   along(s, contour, cycle.left_x_mm, cycle.left_z_mm);
-  levels.back();
+  if (cycle.comes_back) levels.back();
+}
+
+void remove_stock(ModalState& s, const Contour& contour, const StockRemoval& c,
+                  RoughingAlong direction) {
+  auto all = points(contour, {.left_x_mm = 0});
+  std::erase_if(all, [before = std::optional<Point>()](const Point& p) mutable {
+    const auto last = std::exchange(before, p);
+    return last && std::hypot(p.h_mm - last->h_mm, p.z_mm - last->z_mm) < kLevel_mm;
+  });
+  const auto lost = [&s](const char* why) {
+    s.unknown("CYCLE95", why);
+    s.lose_place();
+  };
+  if (all.size() < 2 || !(c.retract_mm >= 0) || (c.roughs && !(c.depth_mm > 0)))
+    return lost("Its contour or its depth is not known.");
+  const double outwards = c.inside ? -1 : 1;
+  const bool along_x = direction == RoughingAlong::x;
+  const double forwards = all.back().z_mm < all.front().z_mm ? -1 : 1;
+  const double away_z = along_x ? forwards : -forwards;
+  if ((along_x ? -1 : 1) * outwards * (all.back().h_mm - all.front().h_mm) < 0)
+    return lost("Its contour goes the other way than its kind.");
+  // With X up and Z to the right the tool is to the right of an outer contour that goes left.
+  const double side = outwards * forwards;
+  if (c.left_mm > 0) all = beside(all, c.left_mm, -side);
+  for (auto& p : all) {
+    p.h_mm += outwards * c.left_x_mm;
+    p.z_mm += away_z * c.left_z_mm;
+  }
+  const double F = s.F;
+  const auto F_line = s.F_line;
+  const auto feed = [&s](double given) {
+    if (given > 0) s.F = given, s.F_line = 0;  // no word F of the program
+  };
+  const double x0 = (along_x ? all.front() : all.back()).h_mm + outwards * c.retract_mm;
+  const double z0 = (along_x ? all.back() : all.front()).z_mm + away_z * c.retract_mm;
+  s.straight(Kind::rapid, x0, z0);
+  if (c.roughs) {
+    feed(c.rough_feed);
+    Levels levels(s, direction, all);
+    if (!levels.steady())
+      return lost("Only contours that go one way in X and in Z are followed.");
+    if (!levels.cut_evenly(c.depth_mm, c.retract_mm, c.corners))
+      return lost("It has more than 500 passes.");
+    levels.back();
+  }
+  s.F = F;
+  s.F_line = F_line;
+  if (!c.finishes) return;
+  const auto nose = s.nose;
+  along_x ? s.straight(Kind::rapid, x0, all.front().z_mm)
+          : s.straight(Kind::rapid, all.front().h_mm, z0);
+  s.nose = {side > 0 ? NoseSide::left : NoseSide::right, 0};
+  for (const auto& run : contour.runs)
+    for (auto m : run.moves) {
+      if (m.words.F_line > 0 && s.per_revolution)
+        s.F = run.step.f_mm_rev, s.F_line = m.words.F_line;
+      feed(c.finish_feed);
+      if (m.to.kind == Kind::rapid) m.to.kind = Kind::feed;
+      s.to(m.to);
+    }
+  s.nose = nose;
+  s.F = F;
+  s.F_line = F_line;
+  along_x ? s.straight(Kind::rapid, *s.x_mm, z0) : s.straight(Kind::rapid, x0, *s.z_mm);
+  s.straight(Kind::rapid, x0, z0);
 }
 
 void repeat_pattern(ModalState& s, const Contour& contour, const ContourCycle& cycle) {
@@ -159,25 +281,31 @@ void repeat_pattern(ModalState& s, const Contour& contour, const ContourCycle& c
   }
 }
 
-void finish(ModalState& s, const Contour& contour) {
-  if (!s.x_mm || !s.z_mm)
-    return s.unknown("G70 from a place that is not known",
-                     "X or Z was not given before it.");
-  const double x0 = *s.x_mm, z0 = *s.z_mm, F = s.F;
+void follow_contour(ModalState& s, const Contour& contour, double dx, double dz) {
+  const double F = s.F;
   const auto F_line = s.F_line;
   const auto nose = s.nose;
   for (const auto& run : contour.runs) {
     const bool own = run.step.f_mm_rev > 0 && s.per_revolution;
     if (own) s.F = run.step.f_mm_rev;
-    for (const auto& m : run.moves) {
+    for (auto m : run.moves) {
       if (own) s.F_line = m.words.F_line;
       s.nose = m.nose;
+      shift(m.to, dx, dz);
       s.to(m.to);
     }
   }
   s.nose = nose;
   s.F = F;
   s.F_line = F_line;
+}
+
+void finish(ModalState& s, const Contour& contour) {
+  if (!s.x_mm || !s.z_mm)
+    return s.unknown("G70 from a place that is not known",
+                     "X or Z was not given before it.");
+  const double x0 = *s.x_mm, z0 = *s.z_mm;
+  follow_contour(s, contour, 0, 0);
   s.straight(Kind::rapid, x0, *s.z_mm);
   s.straight(Kind::rapid, x0, z0);
 }
@@ -221,6 +349,7 @@ std::optional<double> ContourCycleReader::take(ModalState& s, gcode::Control con
     cycle_.depth_mm = control == gcode::Control::haas ? s.mm(*D->value)
                                                       : s.steps_mm(*D->value, D->point);
   }
+  cycle_.name = code == 71 ? "G71" : "G72";
   cycle_.left_x_mm = s.mm(block.value("U").value_or(0)) / 2;
   cycle_.left_z_mm = s.mm(block.value("W").value_or(0));
   // Controls rough without compensation.

@@ -16,10 +16,12 @@ struct Contour {
 
 /// What of a contour's cycle the moves follow from.
 struct ContourCycle {
+  const char* name = "G71";
   double depth_mm = 0, retract_mm = 0;    ///< of each pass, on the radius
   double left_x_mm = 0, left_z_mm = 0;    ///< for finishing: on the radius, < 0 in bores
   double shift_x_mm = 0, shift_z_mm = 0;  ///< of the first pass of G73, on the radius
   double passes = 0;                      ///< of G73
+  bool comes_back = true;                 ///< to where it began
 };
 
 /// Passes from where the tool stands to the contour with what is left on it, each with a
@@ -30,12 +32,39 @@ enum class RoughingAlong { z, x };
 void rough(ModalState& s, const Contour& contour, const ContourCycle& cycle,
            RoughingAlong along);
 
+/// Stock removal as CYCLE95 of Siemens does it, from where it begins itself: beside the
+/// contour's end and before its beginning by the distance of its retracts.
+struct StockRemoval {
+  double depth_mm = 0;  ///< the largest, of passes that are alike
+  double left_x_mm = 0, left_z_mm = 0,
+         left_mm = 0;                      ///< along X, Z and normal to the contour
+  double rough_feed = 0, finish_feed = 0;  ///< 0: that in force, of the blocks
+  double retract_mm = 1;
+  bool roughs = true, finishes = true;
+  bool corners = true;  ///< each pass goes on along the contour to the one before
+  bool inside = false;
+};
+
+/// Roughing passes of one depth to the contour with what is left, then the contour with the
+/// nose's compensation, as the control switches it on itself.  Contours that go one way in X
+/// and in Z are followed.
+/// Source: [Siemens 808D], page 187; of the depths that all are alike: from knowledge of the
+/// cycle, not opened.
+void remove_stock(ModalState& s, const Contour& contour, const StockRemoval& cycle,
+                  RoughingAlong along);
+
 /// The contour with what is left on it, moved by a shift that falls evenly from its whole at
 /// the first pass to none at the last (G73).
 void repeat_pattern(ModalState& s, const Contour& contour, const ContourCycle& cycle);
 
 /// Along the contour and back to where the tool stood (G70).
 void finish(ModalState& s, const Contour& contour);
+
+/// The contour's moves as feeds, shifted, at the feed in force.
+void along(ModalState& s, const Contour& contour, double dx_mm, double dz_mm);
+
+/// The contour's moves, shifted, with the feeds and the compensation of its blocks.
+void follow_contour(ModalState& s, const Contour& contour, double dx_mm, double dz_mm);
 
 /// G70 to G73 in two blocks, of which the first sets depths and passes, or in one:
 ///

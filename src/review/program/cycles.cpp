@@ -50,6 +50,51 @@ void tap_cycle(ModalState& s, double from_z, double to_z, double lead_mm) {
   s.straight(Kind::rapid, 0, z0);
 }
 
+std::vector<double> strokes(double from_z_mm, double bottom_z_mm, double first_mm,
+                            const std::function<double(double)>& next) {
+  std::vector<double> ends;
+  const double way = bottom_z_mm - from_z_mm, depth = std::abs(way);
+  double at = 0;
+  for (double stroke = first_mm; at < depth - kRounding_mm; stroke = next(stroke)) {
+    if (!(stroke > kRounding_mm) || ends.size() >= kMostCuts) return {};
+    at = std::min(depth, at + stroke);
+    ends.push_back(from_z_mm + std::copysign(at, way));
+  }
+  if (!ends.empty()) ends.back() = bottom_z_mm;
+  return ends;
+}
+
+void drill_cycle(ModalState& s, const DrillCycle& c) {
+  if (!s.x_mm || (*s.x_mm != 0 && !s.milling.on) || c.strokes_z_mm.empty())
+    return s.lose_place(),
+           s.unknown("a drilling cycle",
+                     "X is not known or not 0, or its depth or strokes are not given.");
+  const double outwards = c.from_z_mm > c.strokes_z_mm.back() ? 1 : -1;
+  s.straight(Kind::rapid, s.x_mm, c.from_z_mm);
+  const double F = s.F;
+  std::optional<double> reached;
+  for (const double z : c.strokes_z_mm) {
+    if (reached && c.clears) {
+      s.straight(Kind::rapid, s.x_mm, c.from_z_mm);
+      s.dwell(c.wait_top_min);
+    }
+    const double back = c.clears ? c.before_mm : c.retract_mm;
+    const double room = reached ? std::abs(c.from_z_mm - *reached) : 0;
+    if (reached)
+      s.straight(Kind::rapid, s.x_mm, *reached + outwards * std::min(back, room));
+    s.F = reached ? F : F * c.first_feed_share;
+    s.straight(Kind::feed, s.x_mm, z);
+    s.dwell(c.wait_bottom_min);
+    reached = z;
+  }
+  if (c.feed_out > 0) {
+    s.F = c.feed_out;
+    s.straight(Kind::feed, s.x_mm, c.feeds_away ? c.away_z_mm : c.from_z_mm);
+  }
+  s.F = F;
+  if (!c.feeds_away) s.straight(Kind::rapid, s.x_mm, c.away_z_mm);
+}
+
 void thread_cycle(ModalState& s, const ThreadCycle& c) {
   const double depth = std::abs(c.end_x_mm - c.outside_mm);
   if (!(depth > 0 && c.first_mm > 0 && c.degression >= 1 && c.lead_mm > 0) || !s.x_mm)

@@ -1,5 +1,7 @@
 #pragma once
+#include <functional>
 #include <optional>
+#include <vector>
 
 #include "modal_state.hpp"
 #include "words.hpp"
@@ -15,6 +17,27 @@ void box_cycle(ModalState& s, Box box, double x, double z, double lead_mm);
 /// A tap from a place on the axis, at rapid from where the tool stands, to another one and
 /// back, then to where it stood.
 void tap_cycle(ModalState& s, double from_z_mm, double to_z_mm, double lead_mm);
+
+/// A hole on the axis from where the tool stands: to `from_z_mm` at rapid, then stroke by
+/// stroke, and away.
+struct DrillCycle {
+  double from_z_mm = 0, away_z_mm = 0;
+  std::vector<double> strokes_z_mm = {};  ///< their ends, the last is the bottom
+  /// After each stroke but the last: out to where it began and back to this distance before
+  /// the depth reached, or back by a retract alone.
+  bool clears = true;
+  double before_mm = 0, retract_mm = 0;
+  double first_feed_share = 1;
+  double wait_bottom_min = 0, wait_top_min = 0;
+  double feed_out = 0;      ///< of the way out, in the control's unit; 0: at rapid
+  bool feeds_away = false;  ///< the whole way, not only to where the strokes begin
+};
+void drill_cycle(ModalState& s, const DrillCycle& cycle);
+
+/// Ends of strokes from a place to the bottom, of which each is `next` of the one before;
+/// empty beyond 200 of them, or where one is not longer than 0.
+std::vector<double> strokes(double from_z_mm, double bottom_z_mm, double first_mm,
+                            const std::function<double(double before_mm)>& next);
 
 /// All cuts of a thread by G76, from where the tool stands.
 struct ThreadCycle {

@@ -72,7 +72,7 @@ void MacroStatements::branch(Flow& flow, std::string_view rest) const {
     throw NotFollowed("Behind a condition GOTO or THEN is followed.");
   if (!holds) return;
   if (word == "GOTO") return go_to(flow, what);
-  auto block = block_of(what, false);
+  auto block = block_of(what, Language::macro_b);
   if (!block.words.empty() || !block.rest.empty() || block.assignments.empty())
     throw NotFollowed("Behind THEN a variable must be set.");
   evaluate(block, flow.parameters);

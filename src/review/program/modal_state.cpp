@@ -1,24 +1,32 @@
 #include "modal_state.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "plane.hpp"
 #include "turnwright/base/units.hpp"
 
 namespace turnwright::review {
 namespace {
 
 using toolpath::Move;
+using toolpath::Point;
 using toolpath::Step;
 
 constexpr std::size_t kUnknowns = 200;  // listed; more are counted by their reader
 constexpr double kFarthest_mm = 1e5;
+constexpr double kLongestDwell_min = 1e4;
 constexpr double kLeastFeed = 1e-6, kLeastSpeed = 1e-3;  // less is none
 
 bool same_conditions(const Step& a, const Step& b) {
   return a.stop == b.stop && a.tool == b.tool && a.S == b.S &&
          a.constant_surface_speed == b.constant_surface_speed &&
-         a.n_max_rpm == b.n_max_rpm && a.f_mm_rev == b.f_mm_rev;
+         a.n_max_rpm == b.n_max_rpm && a.f_mm_rev == b.f_mm_rev &&
+         a.milling.has_value() == b.milling.has_value() &&
+         (!a.milling || a.milling->f_mm_min == b.milling->f_mm_min);
 }
 
 }  // namespace
@@ -62,6 +70,37 @@ Step ModalState::conditions(const Move& move, double lead_mm) {
   return s;
 }
 
+// The feed of a driven tool; rapids belong to the cuts beside them.
+void ModalState::mill(const Move& move) {
+  Step step;
+  step.tool = tool;
+  toolpath::Milling m;
+  m.n_rpm = milling.n_rpm;
+  m.f_mm_min = per_revolution ? F * milling.n_rpm : F;
+  auto& runs = program.runs;
+  if (move.kind == Move::Kind::rapid)
+    m.f_mm_min = !runs.empty() && runs.back().step.milling
+                     ? runs.back().step.milling->f_mm_min
+                     : std::max(m.f_mm_min, kLeastFeed);
+  step.milling = m;
+  if (!(m.f_mm_min >= kLeastFeed))
+    return unknown("a cut", "No feed of the driven tool is given.");
+  if (milled_by_.insert(tool).second)
+    unknown(tool > 0 ? fmt::format("milling by T{}", tool) : "milling",
+            "Driven tools are not reviewed: their time counts, and the stock stays as it "
+            "is.");
+  std::optional<Point> from;
+  if (x_mm && z_mm) from = Point{*x_mm, *z_mm};
+  if (runs.empty() || !same_conditions(runs.back().step, step)) runs.push_back({step});
+  runs.back().moves.push_back(
+      {.from = from, .to = move, .line = line, .from_y_mm = milling.y_mm});
+}
+
+void ModalState::end_milling() {
+  if (milling.c == MillingMode::C::plane && x_mm) x_mm = std::hypot(*x_mm, milling.y_mm);
+  milling = {};
+}
+
 void ModalState::append(const Move& move, double lead_mm) {
   auto& runs = program.runs;
   std::optional<toolpath::Point> from;
@@ -75,8 +114,51 @@ void ModalState::append(const Move& move, double lead_mm) {
       {from, move, line, {F_line, S_line, !per_revolution}, nose});
 }
 
+// Between two straight feeds; what the corner takes of each is cut off.
+void ModalState::break_corner(const Move& next) {
+  const auto c = std::exchange(corner, {});
+  auto* last = program.runs.empty() || program.runs.back().moves.empty()
+                   ? nullptr
+                   : &program.runs.back().moves.back();
+  const auto straight = [](const Move& m) { return m.kind == Move::Kind::feed; };
+  const auto refuse = [&] {
+    unknown(
+        "a chamfer or rounding",
+        "It is followed between straight cuts that are long enough, and left out here.");
+  };
+  if (!last || !last->from || !x_mm || !z_mm || !straight(last->to) || !straight(next) ||
+      last->to.x_mm != *x_mm || last->to.z_mm != *z_mm)
+    return refuse();
+  const Point corner_at{*x_mm, *z_mm};
+  const auto before = between(*last->from, corner_at);
+  const auto behind = between(corner_at, {next.x_mm, next.z_mm});
+  const double left = cross(before, behind);
+  const double turn = std::atan2(std::abs(left), dot(before, behind));
+  const double half = std::tan(turn / 2);
+  const bool by_radius =
+      c.form == Corner::Form::rounded || c.form == Corner::Form::chamfer_rounded;
+  const double leg = by_radius ? c.size_mm * half
+                     : c.form == Corner::Form::chamfer_across
+                         ? c.size_mm / (2 * std::cos(turn / 2))
+                         : c.size_mm;
+  if (!(turn > 0) || !(leg < length(before) && leg < length(behind))) return refuse();
+  const auto begins = plus(corner_at, unit(before), -leg);
+  const auto ends = plus(corner_at, unit(behind), leg);
+  last->to.x_mm = *x_mm = begins.h_mm;
+  last->to.z_mm = *z_mm = begins.z_mm;
+  Move m{Move::Kind::feed, ends.h_mm, ends.z_mm};
+  if (c.form == Corner::Form::rounded) {
+    // The centre lies on the side to which the way turns.
+    m.kind = Move::Kind::arc;
+    m.clockwise = left < 0;
+    m.centre = plus(begins, to_the_right(unit(before)), std::copysign(c.size_mm, -left));
+  }
+  to(m);
+}
+
 void ModalState::to(Move move) {
   const bool feeds = move.kind != Move::Kind::rapid;
+  if (corner.size_mm > 0) break_corner(move);
   if (++moves_ > moves_max_) return;
   if (!(std::abs(move.x_mm) <= kFarthest_mm && std::abs(move.z_mm) <= kFarthest_mm)) {
     unknown("coordinates beyond 100 m", "No machine goes there.");
@@ -84,6 +166,9 @@ void ModalState::to(Move move) {
   }
   if (!suspended.empty()) {
     if (feeds) unknown("a cut", suspended);
+  } else if (milling.on) {
+    mill(move);
+    milling.y_mm = move.y_mm;
   } else if (feeds && !turning) {
     unknown("a cut with the spindle at rest", "No M3 or M4 is in force.");
   } else if (feeds && !(F >= kLeastFeed && S >= kLeastSpeed)) {
@@ -100,7 +185,11 @@ void ModalState::straight(Move::Kind kind, std::optional<double> x,
                           std::optional<double> z) {
   if (!x) x = x_mm;
   if (!z) z = z_mm;
-  if (x && z) return to({kind, *x, *z});
+  if (x && z) {
+    Move move{kind, *x, *z};
+    move.y_mm = milling.y_mm;
+    return to(move);
+  }
   if (kind != Move::Kind::rapid)
     unknown("a cut from a place that is not known",
             "It is not followed: X or Z was not given before it.");
@@ -118,6 +207,18 @@ void ModalState::thread(double x, double z, double lead_mm) {
     append({Move::Kind::thread, x, z}, lead_mm);
   x_mm = x;
   z_mm = z;
+}
+
+void ModalState::dwell(double min) {
+  if (min > 0 && min <= kLongestDwell_min && !program.runs.empty())
+    program.runs.back().wait_min += min;
+}
+
+void ModalState::dwell_turns(double turns) {
+  double n = S;
+  if (surface_speed && x_mm)
+    n = std::min(limit_rpm, units::spindle_rpm(S, std::max(2 * std::abs(*x_mm), 1e-3)));
+  if (n > 0) dwell(turns / n);
 }
 
 void ModalState::stop() {

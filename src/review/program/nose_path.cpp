@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "modal_state.hpp"
+#include "plane.hpp"
 
 namespace turnwright::review {
 namespace {
@@ -16,20 +17,6 @@ using Kind = Move::Kind;
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kSame_mm = 1e-6;
-
-Point plus(const Point& a, const Point& b, double factor = 1) {
-  return {a.h_mm + factor * b.h_mm, a.z_mm + factor * b.z_mm};
-}
-Point between(const Point& from, const Point& to) { return plus(to, from, -1); }
-double length(const Point& a) { return std::hypot(a.h_mm, a.z_mm); }
-double dot(const Point& a, const Point& b) { return a.h_mm * b.h_mm + a.z_mm * b.z_mm; }
-// Positive if b points to the left of a, with X up and Z to the right.
-double cross(const Point& a, const Point& b) { return a.z_mm * b.h_mm - a.h_mm * b.z_mm; }
-Point unit(const Point& a) {
-  const double l = length(a);
-  return l > 0 ? Point{a.h_mm / l, a.z_mm / l} : Point{};
-}
-Point to_the_right(const Point& a) { return {-a.z_mm, a.h_mm}; }
 
 // A piece of the centre's way.
 struct Piece {
@@ -239,7 +226,8 @@ class Compensation {
     out_.named_tools = program.named_tools;
     out_.unknown = program.unknown;
     out_.assumed = program.assumed;
-    for (const auto& run : program.runs) out_.runs.push_back({run.step});
+    for (const auto& run : program.runs)
+      out_.runs.push_back({.step = run.step, .wait_min = run.wait_min});
   }
 
   TurningProgram result() {

@@ -15,7 +15,7 @@ namespace {
 constexpr double kMostRepeats = 1e6;  // of a repetition; lines are counted anyhow
 
 // The label at the front of a text behind its O, small and without blanks; what follows.
-std::pair<std::string, std::string_view> label_of(std::string_view text) {
+std::pair<std::string, std::string_view> label_before_word(std::string_view text) {
   std::string label;
   std::size_t at = 0;
   const char closing = text.starts_with('<') ? '>' : text.starts_with('[') ? ']' : '\0';
@@ -65,7 +65,7 @@ std::optional<OWords::Line> OWords::read(std::string_view text) {
                 .kind = Kind::call,
                 .rest = rest};
   }
-  const auto [label, behind] = label_of(labelled);
+  const auto [label, behind] = label_before_word(labelled);
   const auto [word, rest] = keyword_of(behind);
   const auto kind = kKinds.find(word);
   if (label.empty() || kind == kKinds.end()) return std::nullopt;
@@ -120,6 +120,13 @@ const OWords::Line& OWords::tied(std::size_t i) const {
   if (i == kNone || all_[i].last == kNone)
     throw NotFollowed("The O word's other end is not in the text.");
   return all_[i];
+}
+
+std::optional<std::pair<std::size_t, std::size_t>> OWords::subroutine(
+    double number) const {
+  const auto sub = subroutines_.find(label_of(number));
+  if (sub == subroutines_.end() || all_[sub->second].last == kNone) return std::nullopt;
+  return std::pair{all_[sub->second].line, all_[all_[sub->second].last].line};
 }
 
 bool OWords::direct(Flow& flow) const {

@@ -1,8 +1,10 @@
 #pragma once
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "flow.hpp"
@@ -19,6 +21,9 @@ class OWords {
   /// Whether the flow's line is one of them; it has then been executed.
   /// @throws NotFollowed if it cannot be.
   bool direct(Flow& flow) const;
+
+  /// The lines of a subroutine between its sub and its endsub, both included.
+  std::optional<std::pair<std::size_t, std::size_t>> subroutine(double number) const;
 
  private:
   enum class Kind {

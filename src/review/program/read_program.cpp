@@ -10,11 +10,18 @@
 
 #include "contour_cycle.hpp"
 #include "cycles.hpp"
+#include "drill_cycle_reader.hpp"
 #include "expression.hpp"
 #include "flow.hpp"
+#include "g7x_cycle.hpp"
 #include "macro_statements.hpp"
+#include "milling_words.hpp"
 #include "modal_state.hpp"
 #include "o_words.hpp"
+#include "okuma_lap.hpp"
+#include "okuma_statements.hpp"
+#include "siemens_cycles.hpp"
+#include "siemens_statements.hpp"
 #include "turnwright/base/cancelled.hpp"
 #include "words.hpp"
 
@@ -28,10 +35,12 @@ using toolpath::Point;
 constexpr double kRadii_mm = 0.02;        // by which the ends of an arc may differ
 constexpr double kLargestProgram = 9999;  // more digits of P are times
 
+constexpr double kOkumaBack_mm = 0.5;  // after a peck of G74
+
 bool system_a(Control c) { return c == Control::fanuc || c == Control::haas; }
 
 // G codes that change nothing here: planes, cancellations, exact stop, retract levels.
-constexpr std::array kIdle{4, 17, 18, 43, 49, 61, 64, 80, 291, 601, 602, 603};
+constexpr std::array kIdle{43, 49, 61, 64, 291, 601, 602, 603};
 
 std::string lower(std::string text) {
   std::ranges::transform(text, text.begin(), [](unsigned char c) {
@@ -84,6 +93,11 @@ class ProgramReader {
                                                       : nullptr),
         macros_(has_macros(options.control) ? std::make_shared<MacroStatements>(flow)
                                             : nullptr),
+        siemens_(options.control == Control::siemens
+                     ? std::make_shared<SiemensStatements>(flow)
+                     : nullptr),
+        okuma_(options.control == Control::okuma ? std::make_shared<OkumaStatements>(flow)
+                                                 : nullptr),
         control_(options.control),
         words_(gcode::dialect(options.control)),
         s_(options) {
@@ -124,8 +138,7 @@ class ProgramReader {
 
   void name_tools(std::string_view line) {
     if (line.find_first_of("(;") == line.npos) return;
-    for (const auto& c : block_of(line, control_ == Control::siemens).comments)
-      name_tool(c);
+    for (const auto& c : block_of(line, language()).comments) name_tool(c);
   }
 
   void line(std::size_t at) {
@@ -147,25 +160,65 @@ class ProgramReader {
 
   void execute(std::string_view text) {
     if (directs(text)) return;
-    auto block = block_of(text, control_ == Control::siemens);
+    set_place_variables();
+    auto block = block_of(text, language());
+    if (siemens_ && transforms(block)) return;
+    const auto call = siemens_ && SiemensCycles::knows(block.rest)
+                          ? std::exchange(block.rest, {})
+                          : std::string();
     if (unreadable(block)) return;
     if (block.deletable && !block.words.empty())
       s_.assume("Blocks with a slash are taken as executed.");
+    evaluate(block, flow_.parameters);
+    take(block);
+    if (!call.empty()) siemens_cycle(call);
+  }
+
+  // "TRACYL(40)", "TRANSMIT(1)": words with values in brackets.
+  bool transforms(Block& block) {
+    const auto [name, rest] = name_at_front(block.rest);
+    if ((name != "tracyl" && name != "transmit") || !rest.starts_with('(')) return false;
+    take_up(s_,
+            {name == "tracyl" ? MillingWord::What::cylinder : MillingWord::What::plane});
+    return true;
+  }
+
+  Language language() const { return flow_.parameters.language(); }
+
+  void set_place_variables() {
     const double scale = s_.inch ? 25.4 : 1;
     if (s_.x_mm) flow_.parameters.x = *s_.x_mm / scale;
     if (s_.z_mm) flow_.parameters.z = *s_.z_mm / scale;
-    evaluate(block, flow_.parameters);
-    take(block);
+  }
+
+  void siemens_cycle(const std::string& call) {
+    SiemensCycles::take(s_, flow_.parameters, call, [this](std::string_view name) {
+      const auto lines = SiemensStatements::contour(flow_, name);
+      return lines ? contour_of_lines(lines->first, lines->second) : std::nullopt;
+    });
   }
 
   // A contour is one block after the other.
   bool directs(std::string_view text) {
+    if (siemens_) return siemens_directs(text);
+    if (okuma_ && !in_contour_) return okuma_->direct(flow_);
+    if (okuma_ && OkumaStatements::is_directing(text))
+      throw NotFollowed("Branches and loops in the contour of a cycle are not followed.");
     if (!o_words_ && !macros_) return false;
     if (!in_contour_) return o_words_ ? o_words_->direct(flow_) : macros_->direct(flow_);
     const auto word = keyword_of(statement_of(text)).first;
     if (word == "IF" || word == "WHILE" || word == "GOTO")
       throw NotFollowed("Branches and loops in the contour of a cycle are not followed.");
     return false;
+  }
+
+  bool siemens_directs(std::string_view text) {
+    if (!in_contour_) return siemens_->direct(flow_);
+    const auto word = name_at_front(siemens_statement_of(text)).first;
+    if (SiemensStatements::is_directing(text))
+      throw NotFollowed("Branches and loops in the contour of a cycle are not followed.");
+    if (word == "ret") ended_ = true;
+    return word == "ret" || word == "proc" || word == "def" || word == "extern";
   }
 
   bool unreadable(const Block& block) {
@@ -179,19 +232,29 @@ class ProgramReader {
   void take(const Block& block) {
     special_ = Special::none;
     nose_here_ = false;
+    corner_here_ = {};
+    driven_here_ = block.find("$") && block.value("$") != 0;
     for (const auto& w : block.words)
-      if (w.name == "G" && w.value) code(*w.value, block);
+      if (const auto m = milling_word(control_, w)) take_up(s_, *m);
     for (const auto& w : block.words)
-      if (w.name != "G") word(w, block);
+      if (w.name == "G" && w.value && !milling_word(control_, w)) code(*w.value, block);
+    if (!in_contour_ && special_ == Special::none &&
+        begins_milling(s_, control_, motion_, block))
+      take_up(s_, {MillingWord::What::begins});
+    for (const auto& w : block.words)
+      if (w.name != "G" && !milling_word(control_, w)) word(w);
     tell_repeated(block);
     if (motion_ < 4) box_end_.reset();
     if (special_ == Special::done) return;
     if (special_ == Special::thread_cycle) return threads_.take(s_, control_, block);
     if (special_ == Special::contour) return contour_cycle(block);
-    if (special_ == Special::pecks) return pecks_.take(s_, cycle_code_, block);
+    if (special_ == Special::lap) return lap(block);
+    if (special_ == Special::pecks)
+      return okuma_ ? okuma_drilling(block) : pecks_.take(s_, cycle_code_, block);
     if (special_ == Special::macro) return macro(block);
+    if (special_ == Special::modal_macro) return begin_modal_macro(block);
     if (special_ == Special::tap) return tap(block);
-    move(block);
+    special_ == Special::dwell ? dwell(block) : move(block);
     for (const auto& w : block.words)
       if (w.name == "M" && w.value) ends(static_cast<int>(*w.value), block);
   }
@@ -203,15 +266,31 @@ class ProgramReader {
       motion_ = g;
     else if ((g == 32 && system_a(control_)) || (g == 33 && !system_a(control_)))
       motion_ = g;
+    else if (g == 4)
+      special_ = Special::dwell;
     else if (g == 76)
       special_ = Special::thread_cycle;
     else if (taps(g))
       special_ = Special::tap;
-    else if (g >= 70 && g <= 75 && system_a(control_)) {
+    else if (DrillCycleReader::has(control_, g))
+      motion_ = g, drilling_.begin();
+    else if (g >= 17 && g <= 19)
+      s_.plane = g;
+    else if (g == 80)  // ends drilling
+      motion_ = drills() ? 0 : motion_;
+    else if (g >= 70 && g <= 72 && o_words_) {
+      special_ = Special::contour;
+      cycle_code_ = g;
+    } else if (g >= 70 && g <= 75 && system_a(control_)) {
       special_ = g < 74 ? Special::contour : Special::pecks;
       cycle_code_ = g;
-    } else if (g == 65 && has_macros(control_))
-      special_ = Special::macro;
+    } else if (okuma_ && okuma_cycle(g)) {
+      special_ = g == 74 ? Special::pecks : Special::lap;
+      cycle_code_ = g;
+    } else if ((g == 65 || g == 66) && has_macros(control_))
+      special_ = g == 65 ? Special::macro : Special::modal_macro;
+    else if (g == 67 && has_macros(control_))
+      modal_macro_.reset();
     else if (g >= 40 && g <= 42)
       nose(g, 0);
     else if (g == 96 || g == 97)
@@ -219,6 +298,13 @@ class ProgramReader {
     else if (!units(g) && !feeds_and_boxes(g) && !zeros(g, block) &&
              std::ranges::find(kIdle, g) == kIdle.end())
       strange(g);
+  }
+
+  // Contours and their cycles, and drilling.
+  static bool okuma_cycle(int g) { return g == 74 || (g >= 81 && g <= 88); }
+
+  bool drills() const {
+    return motion_ >= 70 && DrillCycleReader::has(control_, motion_);
   }
 
   bool taps(int g) const {
@@ -229,6 +315,12 @@ class ProgramReader {
 
   // Codes with a decimal.
   void fraction(double value, const Block& block) {
+    for (const int g : {71, 72})
+      if (o_words_ && std::abs(value - g - 0.1) < 1e-6) {
+        special_ = Special::contour;
+        cycle_code_ = g;
+        return;
+      }
     if (control_ == Control::linuxcnc && std::abs(value - 33.1) < 1e-6) {
       special_ = Special::tap;
       return;
@@ -264,6 +356,7 @@ class ProgramReader {
     }
     if (g == 94 || g == 95) s_.per_revolution = g == 95;
     if (g == 90 || g == 91) s_.incremental = g == 91;
+    if (g == 98 || g == 99) s_.to_plane_R = g == 99;
     return g == 94 || g == 95 || g == 90 || g == 91 || g == 98 || g == 99;
   }
 
@@ -312,12 +405,16 @@ class ProgramReader {
                radius_mm};
   }
 
-  void word(const Word& w, const Block& block) {
+  void word(const Word& w) {
     const auto value = w.value.value_or(0);
-    if (special_ == Special::macro) return;  // its arguments
+    if (special_ == Special::macro || special_ == Special::modal_macro ||
+        (special_ == Special::dwell && w.name != "M"))
+      return;  // its arguments
     if (w.name == "F" && motion_ != 92 && special_ != Special::thread_cycle &&
         special_ != Special::tap)
       feed(value);
+    else if (w.name == "S" && (s_.milling.on || driven_here_))
+      s_.milling.n_rpm = value;
     else if (w.name == "S")
       special_ == Special::limit ? limit(value) : speed(value);
     else if (w.name == "LIMS" || (w.name == "D" && control_ == Control::linuxcnc &&
@@ -329,18 +426,42 @@ class ProgramReader {
       machine(static_cast<int>(value), w.text);
     else if (w.name == "DIAMON" || w.name == "DIAMOF")
       s_.diameter = w.name == "DIAMON";
-    else if (w.name == "SPOS")  // the spindle stops for a tap, which G331 turns
+    else if (w.name == "CHR" || w.name == "CHF" || w.name == "RND")
+      corner_here_ = {w.name == "RND"   ? Corner::Form::rounded
+                      : w.name == "CHF" ? Corner::Form::chamfer_across
+                                        : Corner::Form::chamfer,
+                      s_.mm(value)};
+    else if (special_ == Special::lap && w.name.front() == 'N')  // its contour
       return;
-    else if (w.name.size() > 1 && !block.find("G"))
-      s_.unknown(w.text, "The word is not known.");
-    if (w.name.size() == 1 &&
-        std::string_view("ABCVY").find(w.name) != std::string_view::npos)
+    else if (w.name.size() > 1 && special_ != Special::done && !moves_nothing(w.name))
+      strange_word(w);
+    if (in_contour_ && o_words_ && (w.name == "A" || w.name == "C"))
+      corner_here_ = {
+          w.name == "A" ? Corner::Form::rounded : Corner::Form::chamfer_rounded,
+          s_.mm(value)};
+    else if (w.name.size() == 1 && !(s_.milling.on && (w.name == "C" || w.name == "Y")) &&
+             !(w.name == "Y" && value == 0 && motion_ == 0) &&
+             std::string_view("ABCVY").find(w.name) != std::string_view::npos)
       s_.unknown(w.text, "Only the axes X and Z are followed.");
     if (w.name == "E" && special_ == Special::none && motion_ < 4)
       s_.unknown(
           w.text,
           "The letter belongs to threads; a number before it ends there, it has no "
           "exponent.");
+  }
+
+  // Words of several letters that leave the place as it is or belong to another one.
+  static bool moves_nothing(const std::string& name) {
+    constexpr std::string_view kIdleNames[] = {
+        "SPOS",   "CR",   "SF",     "SOFT",    "BRISK",  "FFWON",
+        "FFWOF",  "NORM", "KONT",   "CFC",     "CFIN",   "CFTCP",
+        "STOPRE", "SUPA", "COMPOF", "WALIMON", "FPRAOF", "SETMS"};
+    return std::ranges::find(kIdleNames, name) != std::end(kIdleNames);
+  }
+  void strange_word(const Word& w) {
+    s_.unknown(w.text, "The word is not known; the block may have moved the tool.");
+    s_.lose_place();
+    special_ = Special::done;
   }
 
   // Codes alone may stand twice in a block.
@@ -374,7 +495,11 @@ class ProgramReader {
   }
 
   void machine(int m, const std::string& text) {
-    if (m == 3 || m == 4) s_.turning = true;
+    if ((m == 3 || m == 4) && driven_here_) s_.milling.on = true, s_.turning = false;
+    if ((m == 3 || m == 4) && !driven_here_) {
+      if (s_.milling.on) s_.end_milling();
+      s_.turning = true;
+    }
     if (m == 6) s_.tool = s_.chosen_tool;
     if (m == 198) s_.unknown(text, "The subprogram is not in the text.");
   }
@@ -382,8 +507,10 @@ class ProgramReader {
   // Codes that act after the motion of their block.
   void ends(int m, const Block& block) {
     if (m == 0 || m == 1) s_.stop();
-    if (m == 5) s_.turning = false;
-    if (m == 2 || m == 30) ended_ = true;
+    if (m == 5 && !driven_here_) s_.turning = false;
+    const bool siemens_end = siemens_ && (m == 2 || m == 17 || m == 30);
+    if (siemens_end && !in_contour_ && flow_.leave_program()) return;
+    if (m == 2 || m == 30 || siemens_end) ended_ = true;
     if (m < 97 || m > 99 || !(o_words_ || macros_)) return;
     if (in_contour_) throw NotFollowed("The contour of a cycle has no calls.");
     if (m == 99)
@@ -418,6 +545,23 @@ class ProgramReader {
     flow_.call_macro(*P, block.value("L").value_or(1), macro_arguments(block));
   }
 
+  // G66: the macro is called behind each block that moves, in the program of the G66, until
+  // G67, each time with the same arguments.
+  void begin_modal_macro(const Block& block) {
+    const auto P = block.value("P");
+    if (!P) throw NotFollowed("The macro has no number.");
+    if (modal_macro_) throw NotFollowed("One G66 in another is not followed.");
+    if (!flow_.has_program(*P)) throw NotFollowed("The subprogram is not in the text.");
+    modal_macro_ = {*P, block.value("L").value_or(1), macro_arguments(block),
+                    flow_.depth()};
+  }
+  void call_modal_macro() {
+    if (!modal_macro_ || modal_macro_->depth != flow_.depth()) return;
+    if (in_contour_) throw NotFollowed("The contour of a cycle has no calls.");
+    const auto& m = *modal_macro_;
+    flow_.call_macro(m.number, m.times, m.arguments);
+  }
+
   struct Target {
     std::optional<double> x, z;
   };
@@ -429,19 +573,24 @@ class ProgramReader {
       if (!v) return std::nullopt;
       if (words_.point && !block.find(name)->point)
         s_.assume("Numbers without a point are millimetres or inches, not steps.");
-      if (!s_.incremental) return s_.mm(*v) * scale;
+      using Meant = Word::Meant;
+      const auto meant = block.find(name)->meant;
+      if (meant == Meant::absolute || (meant == Meant::by_mode && !s_.incremental))
+        return s_.mm(*v) * scale;
       return now ? std::optional(*now + s_.mm(*v) * scale) : std::nullopt;
     };
     Target t{absolute("X", half, s_.x_mm), absolute("Z", 1, s_.z_mm)};
-    if (!system_a(control_)) return t;
+    if (!system_a(control_) && !(o_words_ && in_contour_)) return t;
     if (const auto u = block.value("U"); u && s_.x_mm) t.x = *s_.x_mm + s_.mm(*u) * half;
     if (const auto w = block.value("W"); w && s_.z_mm) t.z = *s_.z_mm + s_.mm(*w);
     return t;
   }
 
-  static bool names_a_place(const Block& block, bool arcs) {
+  bool names_a_place(const Block& block, bool arcs) const {
     for (const char* name : {"X", "Z", "U", "W"})
       if (block.find(name)) return true;
+    if (s_.milling.on && (block.find("C") || block.find("Y") || block.find("H")))
+      return true;
     return arcs && (block.find("I") || block.find("K"));
   }
 
@@ -449,9 +598,18 @@ class ProgramReader {
     if (special_ == Special::limit || !names_a_place(block, motion_ == 2 || motion_ == 3))
       return;
     const auto t = target(block);
+    const bool driven = s_.milling.on && motion_ <= 3 &&
+                        driven_move(s_, control_, motion_, block, t.x, t.z);
+    if (!driven) straight_or_arc(block, t);
+    s_.corner = corner_here_;
+    call_modal_macro();
+  }
+
+  void straight_or_arc(const Block& block, const Target& t) {
     switch (motion_) {
-      case 0:
-        return s_.straight(Move::Kind::rapid, t.x, t.z);
+      case 0:  // a contour's is a cut in LinuxCNC
+        return s_.straight(in_contour_ && o_words_ ? Move::Kind::feed : Move::Kind::rapid,
+                           t.x, t.z);
       case 1:
         return s_.straight(Move::Kind::feed, t.x, t.z);
       case 2:
@@ -460,6 +618,7 @@ class ProgramReader {
       default:
         break;
     }
+    if (drills()) return drilling_.take(s_, control_, motion_, block, t.x, t.z);
     if (!s_.x_mm || !s_.z_mm) {
       s_.unknown("a cut from a place that is not known",
                  "It is not followed: X or Z was not given before it.");
@@ -473,6 +632,20 @@ class ProgramReader {
     if (motion_ == 32 || motion_ == 33)
       return thread(block, box_end_->h_mm, box_end_->z_mm);
     box(block, box_end_->h_mm, box_end_->z_mm);
+  }
+
+  // Seconds by F (Siemens, Okuma), X or U, P without a point in ms (Fanuc), or P (LinuxCNC);
+  // turns of the spindle by S (Siemens).
+  void dwell(const Block& block) {
+    double s = 0;
+    for (const char* name : {"F", "X", "U", "P"}) {
+      const auto* w = block.find(name);
+      if (!w || !w->value) continue;
+      const bool ms = *name == 'P' && control_ != Control::linuxcnc && !w->point;
+      s = *w->value / (ms ? 1000 : 1);
+    }
+    s_.dwell(s / 60);
+    if (control_ == Control::siemens) s_.dwell_turns(block.value("S").value_or(0));
   }
 
   // On the axis, with the spindle in step.  Siemens has a block for each way.
@@ -508,6 +681,13 @@ class ProgramReader {
     s_.thread(x, z, lead_mm_);
   }
 
+  // From the beginning, or absolute where it says so ("I=AC(30)").
+  double centre_word(const Block& block, const char* name, double from_mm, double scale) {
+    const auto* w = block.find(name);
+    const double value = w ? s_.mm(w->value.value_or(0)) : 0;
+    return w && w->meant == Word::Meant::absolute ? value * scale : from_mm + value;
+  }
+
   void arc(const Block& block, const Target& t) {
     if (!s_.x_mm || !s_.z_mm)
       return s_.straight(Move::Kind::feed, t.x, t.z);  // tells that it is not followed
@@ -515,11 +695,11 @@ class ProgramReader {
     const Point to{t.x.value_or(from.h_mm), t.z.value_or(from.z_mm)};
     const bool clockwise = motion_ == 2;
     std::optional<Point> centre;
-    if (const auto R = block.value("R"))
+    if (const auto R = block.value(siemens_ ? "CR" : "R"))
       centre = centre_of(from, to, s_.mm(*R), clockwise);
     else
-      centre = Point{from.h_mm + s_.mm(block.value("I").value_or(0)),
-                     from.z_mm + s_.mm(block.value("K").value_or(0))};
+      centre = Point{centre_word(block, "I", from.h_mm, s_.diameter ? 0.5 : 1),
+                     centre_word(block, "K", from.z_mm, 1)};
     const auto radius = [&](const Point& p) {
       return std::hypot(p.h_mm - centre->h_mm, p.z_mm - centre->z_mm);
     };
@@ -533,6 +713,7 @@ class ProgramReader {
 
   // G70 to G73 of system A; the program goes on behind the contour.
   void contour_cycle(const Block& block) {
+    if (o_words_) return subroutine_cycle(block);
     const auto end =
         contours_.take(s_, control_, cycle_code_, block,
                        [this](double P, double Q) { return contour_between(P, Q); });
@@ -540,40 +721,132 @@ class ProgramReader {
     if (line && *line >= flow_.line()) flow_.go_to(*line + 1);
   }
 
+  // G70 to G72 of LinuxCNC, along the contour of a subroutine.
+  void subroutine_cycle(const Block& block) {
+    const auto Q = block.value("Q");
+    const auto lines = Q ? o_words_->subroutine(*Q) : std::nullopt;
+    if (!lines) throw NotFollowed("The subroutine of its contour is not in the text.");
+    const auto t = target(block);
+    s_.straight(Move::Kind::rapid, t.x, t.z);
+    const auto contour = contour_of_lines(lines->first + 1, lines->second - 1);
+    if (!contour) throw NotFollowed("The contour of a cycle has no cycles.");
+    g7x_cycle(s_, cycle_code_, block, *contour);
+  }
+
+  // G81 to G88 of Okuma.  The definition of a contour is passed over where it stands.
+  void lap(const Block& block) {
+    const bool defines = cycle_code_ <= 83;
+    const auto end = okuma_->end_of_contour(flow_.line());
+    if (defines && in_contour_) return;  // its first line
+    if (defines) {
+      if (!end) throw NotFollowed("The definition of the contour has no end.");
+      return flow_.go_to(*end + 1);
+    }
+    const auto label = label_in(block);
+    const auto begins = label ? flow_.block(*label) : std::nullopt;
+    const auto last = begins ? okuma_->end_of_contour(*begins) : std::nullopt;
+    if (!last || *last <= *begins || cycle_code_ == 84 || cycle_code_ == 88)
+      throw NotFollowed(
+          "G85, G86 and G87 of a contour between G81 or G82 and G80 are followed.");
+    const auto first = block_of(flow_.lines()[*begins], Language::okuma).value("G");
+    if (first != 81 && first != 82)
+      throw NotFollowed("Contours that G81 or G82 begins are followed, without a blank.");
+    const auto contour = contour_of_lines(*begins, *last - 1);
+    if (!contour) throw NotFollowed("The contour of a cycle has no cycles.");
+    lap_cycle(s_, cycle_code_, block, *contour,
+              first == 81 ? RoughingAlong::z : RoughingAlong::x);
+  }
+
+  // G74 X0 Z D F: D the length of a peck; how far it comes back is a parameter.
+  void okuma_drilling(const Block& block) {
+    const auto t = target(block);
+    for (const auto& w : block.words)
+      if (std::string_view("GNXZDFSTM").find(w.name.front()) == std::string_view::npos ||
+          w.name.size() > 1)
+        throw NotFollowed("Only X, Z, D and F of G74 are followed.");
+    if (t.x && t.x != s_.x_mm) s_.straight(Move::Kind::rapid, t.x, s_.z_mm);
+    if (!t.z || !s_.z_mm) throw NotFollowed("Z was not given before or in it.");
+    const double depth = std::abs(*t.z - *s_.z_mm);
+    const double peck = s_.mm(block.value("D").value_or(0));
+    DrillCycle d{.from_z_mm = *s_.z_mm, .away_z_mm = *s_.z_mm};
+    d.strokes_z_mm = strokes(*s_.z_mm, *t.z, peck > 0 ? peck : depth,
+                             [](double before) { return before; });
+    d.clears = false;
+    d.retract_mm = kOkumaBack_mm;
+    if (d.strokes_z_mm.size() > 1)
+      s_.assume(
+          "G74 comes back after each peck by a parameter of the control, here 0.5 mm.");
+    drill_cycle(s_, d);
+  }
+
   // The moves of the blocks from N = P to N = Q, as if they followed.
   std::optional<Contour> contour_between(double P, double Q) {
     const auto first = flow_.block(P), last = flow_.block(Q);
-    if (in_contour_ || !first || !last || *last < *first) return std::nullopt;
+    if (!first || !last || *last < *first) return std::nullopt;
+    return contour_of_lines(*first, *last);
+  }
+
+  std::optional<Contour> contour_of_lines(std::size_t first, std::size_t last) {
+    if (in_contour_) return std::nullopt;
     auto kept = std::exchange(s_.program, {});
     ProgramReader inner(*this);
     s_.program = std::move(kept);
     inner.in_contour_ = true;
     inner.s_.turning = true;
-    for (auto i = *first; i <= *last && !flow_.spent() && !inner.s_.full(); ++i)
+    if (o_words_) inner.s_.nose = {};
+    if (siemens_) {  // feeds of CYCLE95 are its own, or those of the contour's words
+      inner.s_.F_line = 0;
+      if (!(inner.s_.F > 0)) inner.s_.F = 1;
+    }
+    for (auto i = first; i <= last && !inner.ended_ && !flow_.spent() && !inner.s_.full();
+         ++i)
       inner.line(i);
     for (auto& u : inner.s_.program.unknown) s_.unknown(u.what, u.why);
     return Contour{std::move(inner.s_.program.runs)};
   }
 
-  enum class Special { none, done, limit, thread_cycle, contour, pecks, macro, tap };
+  enum class Special {
+    none,
+    done,
+    limit,
+    dwell,
+    thread_cycle,
+    contour,
+    pecks,
+    lap,
+    macro,
+    modal_macro,
+    tap
+  };
 
   Flow& flow_;
   std::shared_ptr<const OWords> o_words_;
   std::shared_ptr<const MacroStatements> macros_;
+  std::shared_ptr<const SiemensStatements> siemens_;
+  std::shared_ptr<const OkumaStatements> okuma_;
   Control control_;
   const gcode::Dialect& words_;
   ModalState s_;
   ThreadCycleReader threads_;
   ContourCycleReader contours_;
   PeckCycleReader pecks_;
+  DrillCycleReader drilling_;
   int motion_ = 0;
   Special special_ = Special::none;
   int work_offset_ = 0;
   double lead_mm_ = 0;
   std::optional<Point> box_end_;  // of the cycle before
   bool ended_ = false, in_contour_ = false;
-  bool nose_here_ = false;  // G40 to G42 in the block
+  bool nose_here_ = false;    // G40 to G42 in the block
+  bool driven_here_ = false;  // "$1" in the block
+  Corner corner_here_;
   int cycle_code_ = 0;
+  struct ModalMacro {
+    double number = 0, times = 1;
+    std::map<int, double> arguments = {};
+    std::size_t depth = 0;
+  };
+  std::optional<ModalMacro> modal_macro_;  // of G66
 };
 
 }  // namespace

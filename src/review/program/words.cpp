@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <span>
 
 #include "letters.hpp"
 
@@ -57,12 +58,14 @@ class Scanner {
   std::size_t at_ = 0;
 };
 
-// Skips brackets to the one that closes the first.
-bool skip_brackets(Scanner& in) {
+// Skips brackets to the one that closes the first, of round ones too where they are of
+// expressions.
+bool skip_brackets(Scanner& in, bool round = false) {
   int depth = 0;
   for (; !in.done(); in.skip()) {
-    if (in.next() == '[') ++depth;
-    if (in.next() == ']' && --depth == 0) return in.skip(), true;
+    const char c = in.next();
+    if (c == '[' || (round && c == '(')) ++depth;
+    if ((c == ']' || (round && c == ')')) && --depth == 0) return in.skip(), true;
   }
   return false;
 }
@@ -94,17 +97,70 @@ bool skip_value(Scanner& in) {
   return is_letter(in.next()) ? skip_function(in) : in.number().has_value();
 }
 
-// Skips an operator between two values.
-bool skip_operator(Scanner& in) {
+// Skips the longest of these names here.
+bool skip_one_of(Scanner& in, std::span<const std::string_view> names) {
+  const auto start = in.at();
   in.skip_blanks();
-  for (const std::string_view name :
-       {"**", "*", "/", "+", "-", "MOD", "AND", "XOR", "OR"}) {
+  for (const auto name : names) {
     const auto rest = in.rest().substr(0, name.size());
     if (!std::ranges::equal(rest, name, {}, capital)) continue;
     in.back_to(in.at() + name.size());
     return true;
   }
+  in.back_to(start);
   return false;
+}
+
+// Skips an operator between two values.
+bool skip_operator(Scanner& in) {
+  constexpr std::string_view kBetween[] = {"**",  "*",   "/",   "+", "-",
+                                           "MOD", "AND", "XOR", "OR"};
+  return skip_one_of(in, kBetween);
+}
+
+bool begins_name(char c) { return is_letter(c) || c == '_' || c == '$'; }
+
+// A name of letters, or one letter and a number.
+void skip_name(Scanner& in) {
+  if (!begins_name(in.next())) return;
+  in.skip();
+  const bool numbered = is_digit(in.next());
+  while (is_digit(in.next()) || (!numbered && begins_name(in.next()))) in.skip();
+}
+
+// Skips one value as Siemens writes it: a number, a variable with its index, a function.
+bool skip_named_value(Scanner& in, Language language) {
+  constexpr std::string_view kBefore[] = {"B_NOT", "NOT", "-", "+"};
+  const char opening = language == Language::siemens ? '(' : '[';
+  while (skip_one_of(in, kBefore)) {
+  }
+  in.skip_blanks();
+  if (in.next() == opening) return skip_brackets(in, true);
+  if (begins_name(in.next())) {
+    skip_name(in);
+    return (in.next() != opening && in.next() != '[') || skip_brackets(in, true);
+  }
+  if (!in.number()) return false;
+  if (capital(in.next()) != 'E') return true;
+  const auto end = in.at();
+  in.skip();
+  if (capital(in.next()) == 'X' && (in.skip(), in.number())) return true;
+  return in.back_to(end), true;
+}
+
+// Skips an expression of Siemens or Okuma, which ends with its line or before another word.
+bool skip_named_expression(Scanner& in, Language language) {
+  constexpr std::string_view kNamedBetween[] = {
+      "*",   "/",   "+",  "-",  "DIV", "MOD", "B_AND", "B_XOR", "B_OR",
+      "AND", "XOR", "OR", "==", "<>",  ">=",  "<=",    ">",     "<"};
+  constexpr std::string_view kOkumaBetween[] = {"*", "/", "+", "-"};
+  const std::span<const std::string_view> between =
+      language == Language::okuma ? std::span<const std::string_view>(kOkumaBetween)
+                                  : std::span<const std::string_view>(kNamedBetween);
+  do
+    if (!skip_named_value(in, language)) return false;
+  while (skip_one_of(in, between));
+  return true;
 }
 
 // "#1=#2+3": Fanuc reckons without brackets too.
@@ -141,33 +197,114 @@ std::optional<std::string> message_of(Scanner& in) {
   return std::string(rest.substr(text, end - text));
 }
 
-// The name of a word: a letter, or a name of letters and digits before "=" or alone.
+// "N10 MARK:" in front of a block of Siemens, whose number is a word.
+void skip_label(Scanner& in) {
+  in.skip_blanks();
+  const auto start = in.at();
+  if (capital(in.next()) == 'N') {
+    in.skip();
+    if (in.number())
+      in.skip_blanks();
+    else
+      in.back_to(start);
+  }
+  const auto from = in.at();
+  skip_name(in);
+  if (in.at() == from || in.next() != ':') return in.back_to(start);
+  in.skip();
+}
+
+// "NLAP1" in front of a block of Okuma.
+void skip_named_number(Scanner& in) {
+  in.skip_blanks();
+  const auto start = in.at();
+  if (capital(in.next()) != 'N') return;
+  in.skip();
+  if (!is_letter(in.next())) return in.back_to(start);
+  skip_name(in);
+  if (!in.done() && !is_blank(in.next())) in.back_to(start);
+}
+
+// "R1=5", "R[R2]=5", "depth[1]=5"; names of DEF alone are words at first.
+std::optional<Assignment> named_assignment_of(Scanner& in, Language language) {
+  const char letter = language == Language::okuma ? 'V' : 'R';
+  const auto start = in.at();
+  Assignment a;
+  const char first = capital(in.next());
+  skip_name(in);
+  const auto name = in.since(start);
+  const bool numbered =
+      first == letter && name.size() > 1 &&
+      std::ranges::all_of(name.substr(1), [](char c) { return is_digit(c); });
+  const bool indexed = in.next() == '[' && skip_brackets(in, true);
+  a.parameter = in.since(start);
+  in.skip_blanks();
+  if ((!numbered && !indexed) || in.next() != '=') return std::nullopt;
+  in.skip();
+  const auto from = in.at();
+  if (!skip_named_expression(in, language)) return std::nullopt;
+  a.expression = in.since(from);
+  return a;
+}
+
+// The name of a word: a letter, a letter and a number before "=", or several letters.
 std::string name_of(Scanner& in, bool names) {
   const auto start = in.at();
   std::string name(1, capital(in.next()));
   in.skip();
   if (!names) return name;
-  while (is_letter(in.next()) || is_digit(in.next()) || in.next() == '_') {
+  const bool several = is_letter(in.next()) || in.next() == '_';
+  while (is_digit(in.next()) || (several && (is_letter(in.next()) || in.next() == '_'))) {
     name += capital(in.next());
     in.skip();
   }
-  const auto letters = std::ranges::count_if(name, is_letter);
-  if (letters > 1 || in.next() == '=') return name;
+  if (several || in.next() == '=') return name;
   in.back_to(start + 1);
   return name.substr(0, 1);
 }
 
-std::optional<Word> word_of(Scanner& in, bool names) {
+// "IC(..)" and "AC(..)" say how a coordinate is meant, whatever the mode.
+void read_meaning(Word& w) {
+  const auto expression = std::string_view(w.expression);
+  const auto open = expression.find('(');
+  if (open != 2 || !expression.ends_with(')')) return;
+  const char first = capital(expression[0]);
+  if (capital(expression[1]) != 'C' || (first != 'I' && first != 'A')) return;
+  w.meant = first == 'I' ? Word::Meant::incremental : Word::Meant::absolute;
+  w.expression = w.expression.substr(open);
+}
+
+// What stands behind the name of a word.
+bool read_value(Scanner& in, Language language, Word& w) {
+  const bool names = has_names(language);
+  const bool equals = in.next() == '=';
+  if (equals) in.skip();
+  const auto from = in.at();
+  w.value = in.number();
+  if (!names) {
+    if (w.value) return true;
+    const auto begins = in.at();
+    if (!skip_value(in)) return false;
+    w.expression = in.since(begins);
+    return true;
+  }
+  if (!equals) return w.value.has_value();
+  const auto end = in.at();
+  in.back_to(from);
+  if (!skip_named_expression(in, language)) return in.back_to(end), w.value.has_value();
+  if (w.value && in.at() == end) return true;
+  w.value.reset();
+  w.expression = in.since(from);
+  read_meaning(w);
+  return true;
+}
+
+std::optional<Word> word_of(Scanner& in, Language language) {
   const auto start = in.at();
   Word w;
-  w.name = name_of(in, names);
-  if (w.name.size() == 1 || in.next() == '=') {
-    if (in.next() == '=') in.skip();
-    w.value = in.number();
-    const auto from = in.at();
-    if (!w.value && (names || !skip_value(in))) return std::nullopt;
-    if (!w.value) w.expression = in.since(from);
-  }
+  w.name = name_of(in, has_names(language));
+  if ((w.name.size() == 1 || in.next() == '=') && !read_value(in, language, w))
+    return std::nullopt;
   if (in.next() == '(' && w.name.size() > 1) return std::nullopt;
   w.text = in.since(start);
   w.at = start;
@@ -197,7 +334,8 @@ std::vector<std::string_view> lines_of(std::string_view text) {
   return lines;
 }
 
-Block block_of(std::string_view line, bool names) {
+Block block_of(std::string_view line, Language language) {
+  const bool names = has_names(language);
   Block block;
   Scanner in(line);
   in.skip_blanks();
@@ -205,15 +343,18 @@ Block block_of(std::string_view line, bool names) {
     block.deletable = true;
     in.skip();
   }
+  if (language == Language::siemens) skip_label(in);
+  if (language == Language::okuma) skip_named_number(in);
   for (in.skip_blanks(); !in.done(); in.skip_blanks()) {
     const char c = in.next();
     const auto start = in.at();
-    if (c == ';' || (c == '(' && !names)) {
+    if (c == ';' || (c == '(' && language != Language::siemens)) {
       in.skip();
       block.comments.push_back(in.comment(c == '(' ? ')' : '\n'));
       continue;
     }
-    if (const auto message = names ? message_of(in) : std::nullopt) {
+    if (const auto message =
+            language == Language::siemens ? message_of(in) : std::nullopt) {
       block.comments.push_back(*message);
       continue;
     }
@@ -227,7 +368,15 @@ Block block_of(std::string_view line, bool names) {
       block.rest = in.rest();
       break;
     }
-    const auto word = is_letter(c) ? word_of(in, names) : std::nullopt;
+    if (const auto assignment =
+            names && begins_name(c) ? named_assignment_of(in, language) : std::nullopt) {
+      block.assignments.push_back(*assignment);
+      continue;
+    }
+    in.back_to(start);
+    // "$1", the spindle of a word in LinuxCNC.
+    const bool spindle = c == '$' && language == Language::linuxcnc;
+    const auto word = is_letter(c) || spindle ? word_of(in, language) : std::nullopt;
     if (!word) {
       in.back_to(start);
       block.rest = in.rest();

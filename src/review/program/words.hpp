@@ -4,6 +4,8 @@
 #include <string_view>
 #include <vector>
 
+#include "parameters.hpp"
+
 /// Blocks of a program as words and comments, whatever the control.
 namespace turnwright::review {
 
@@ -16,6 +18,9 @@ struct Word {
   std::size_t at = 0;     ///< where, in its line
   /// What a control reckons where no number stands: "#1", "[#1+2]", "-SIN[30]".
   std::string expression = {};
+  /// Of a coordinate, "X=IC(-2)", "X=AC(5)"; otherwise as the mode says.
+  enum class Meant { by_mode, absolute, incremental };
+  Meant meant = Meant::by_mode;
 };
 
 /// "#1=[#2+3]", "#<depth>=2": a parameter and what becomes its value.
@@ -37,8 +42,7 @@ struct Block {
 /// The lines of a program, without the ends that part them.
 std::vector<std::string_view> lines_of(std::string_view text);
 
-/// Words of a line up to the first that is none.
-/// @param names  words of several letters, as Siemens writes them.
-Block block_of(std::string_view line, bool names);
+/// Words of a line up to the first that is none, as a control writes them.
+Block block_of(std::string_view line, Language language);
 
 }  // namespace turnwright::review

@@ -97,6 +97,56 @@ TEST(PeckCycles, PeckAlongX) {
                   "G1 10 -13", "G0 10 -12.8", "G0 16 -12.8", "G0 16 -10"}));
 }
 
+// 5 mm before the face, to 2 mm before it and to 20 mm in three strokes.
+TEST(DrillingCycles, GoInStrokesOnTheAxis) {
+  const Ways strokes{"G0 0 5",    "G0 0 2",   "G1 0 -7", "G0 0 2",
+                     "G0 0 -6.5", "G1 0 -16", "G0 0 2",  "G0 0 -15.5",
+                     "G1 0 -20",  "G0 0 5",   "G0 10 5"};
+  for (const auto& [control, block] :
+       {std::pair{Control::fanuc, "G83 Z-20. R-3. Q9000 F0.1"},
+        {Control::fanuc, "G83 Z-20. R-3. Q9. F0.1"},
+        {Control::fanuc, "G83 W-25. R-3. Q9000 F0.1"},
+        {Control::fanuc_b, "G98 G83 Z-20. R-3. Q9000 F0.1"},
+        {Control::siemens_iso, "G98 G83 Z-20. R-3. Q9000 F0.1"},
+        {Control::haas, "G83 Z-20. R2. Q9. F0.1"},
+        {Control::haas, "G83 Z-20. R2. I9. J0. K9. F0.1"}}) {
+    const std::string start = "G0 X0. Z5.\n" + std::string(block) + "\nG80\nX20.";
+    EXPECT_EQ(cut(control, start), strokes) << block;
+  }
+  // 9, 6 and 5 mm, which is the least, and what is left.
+  EXPECT_EQ(cut(Control::haas, "G0 X0. Z2.\nG83 Z-20. R2. I9. J3. K5. F0.1\nG80")[5],
+            "G1 0 -13");
+  EXPECT_EQ(cut(Control::haas, "G0 X0. Z2.\nG81 Z-8. F0.1\nZ-9.\nG80\nX20."),
+            (Ways{"G0 0 2", "G0 0 2", "G1 0 -8", "G0 0 2", "G0 0 2", "G1 0 -9", "G0 0 2",
+                  "G0 10 2"}));
+  EXPECT_EQ(cut(Control::fanuc_b, "G0 X0. Z5.\nG99 G85 Z-8. R-3. F0.1\nG80"),
+            (Ways{"G0 0 5", "G0 0 2", "G1 0 -8", "G1 0 2", "G0 0 2"}));
+}
+
+TEST(DrillingCycles, WaitAtTheBottom) {
+  for (const auto& [control, block] : {std::pair{Control::haas, "G82 Z-8. R2. P0.5"},
+                                       {Control::fanuc, "G83 Z-8. R-3. P500"},
+                                       {Control::fanuc, "G85 Z-8. R-3. P500"}}) {
+    const auto p = read(
+        control, "G99 G97 S500 M3 F0.1\nG0 X0. Z5.\n" + std::string(block) + "\nG80\n");
+    expect_understood(p);
+    EXPECT_NEAR(60 * p.runs.back().wait_min, 0.5, 1e-12) << block;
+  }
+}
+
+TEST(DrillingCycles, TellWhatTheyCannotFollow) {
+  for (const auto& [control, block] :
+       {std::pair{Control::haas, "G0 X10. Z5.\nG81 Z-8. R2."},
+        {Control::haas, "G0 X0. Z5.\nG83 Z-8. R2. Q0."},
+        {Control::haas, "G0 X0. Z5.\nG83 Z-90. R2. I1. J0.2"},
+        {Control::linuxcnc, "G0 X0 Z5\nG81 Z-8 R2"},
+        {Control::linuxcnc, "G17 G0 X0 Z5\nG91 G81 Z-8 R2"},
+        {Control::fanuc, "G83 Z-8. R-3."}})
+    EXPECT_FALSE(read(control, "G97 S500 M3 F0.1\n" + std::string(block) + "\nG80\n")
+                     .unknown.empty())
+        << block;
+}
+
 TEST(PeckCycles, AreBounded) {
   for (const char* text : {"G0 X20. Z2.\nG74 R0.1\nG74 Z-500. Q1 F0.1\n",
                            "G0 X20. Z2.\nG75 R0.1\nG75 X10. Z-90. P1000 Q1 F0.1\n",

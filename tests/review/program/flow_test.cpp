@@ -118,6 +118,24 @@ TEST(FanucPrograms, GiveMacrosTheirArguments) {
             (All{12, 12, 16, 50, 4}));
 }
 
+// Behind each move of the program with G66, not behind those of the macro, until G67.
+TEST(FanucPrograms, CallModalMacros) {
+  const std::string macro = "M30\nO9010\nG1 U-[#1] F#9\n#1=9.\nU[#1-9.+#2]\nM99\n";
+  EXPECT_EQ(diameters(Control::fanuc,
+                      "G66 P9010 A2. B1. F0.2\nG0 X40.\nM8\nX30.\nG67\n"
+                      "G0 X50.\n" +
+                          macro),
+            (All{40, 38, 39, 30, 28, 29, 50}));
+  EXPECT_EQ(diameters(Control::haas, "G66 P9010 L2 A2. B1. F0.2\nG0 X40.\nG67\n" + macro),
+            (All{40, 38, 39, 37, 38}));
+  EXPECT_EQ(diameters(Control::fanuc, "G66 P9010 A2. B1. F0.2\nM98 P5\nG0 X40.\nG67\n" +
+                                          macro + "O5\nG0 X8.\nM99\n"),
+            (All{8, 40, 38, 39}));
+  for (const char* text : {"G66 A1.\n", "G66 P77 A1.\n", "G66 P9010 A1.\nG66 P9010 A1.\n",
+                           "G66 P9010 A1. B1. F0.1\nG70 P10 Q20\nN10 G0 X9.\nN20 X8.\n"})
+    EXPECT_FALSE(read(Control::fanuc, kStart + text + macro).unknown.empty()) << text;
+}
+
 TEST(FanucPrograms, EndWithM99OnTheirOwn) {
   const auto p = read(Control::fanuc, kStart + "G1 X10.\nM99\nX5.");
   EXPECT_EQ(moves(p).size(), 2u);
@@ -172,6 +190,16 @@ TEST(ProgramFlow, EndsWhateverTheLoop) {
       {Control::linuxcnc, chain},
       {Control::linuxcnc,
        "o9 sub\no9 endsub\n" + labels + "o1 while [1]\no9 call\no1 endwhile\n"},
+      {Control::siemens, "A: GOTOB A\n"},
+      {Control::siemens, "LOOP\nENDLOOP\n"},
+      {Control::siemens, "R1=1\nWHILE R1\nENDWHILE\n"},
+      {Control::siemens, "A: R1=1\nREPEAT A P=9999\nREPEAT A P=9999\nGOTOB A\n"},
+      {Control::siemens, "A: A\nGOTOB A\nM30\nPROC A\nA\nA\nRET\n"},
+      {Control::siemens, "FOR R1=0 TO 1000000\nENDFOR\n"},
+      {Control::okuma, "NA GOTO NA\n"},
+      {Control::okuma, "NA CALL OB Q9999\nGOTO NA\nM30\nOB\nRTS\n"},
+      {Control::okuma, "NA G81\nG80\nNB IF [1 EQ 1] NA\n"},
+      {Control::fanuc, "G66 P5 L9999\nN1 G0 X20.\nGOTO 1\nM30\nO5\nM99\n"},
       {Control::fanuc, "N1 GOTO 1\n"},
       {Control::fanuc, "WHILE [1 EQ 1] DO 1\nEND 1\n"},
       {Control::fanuc, "DO 1\nM98 P5 L9999\nEND 1\nM30\nO5\n"},

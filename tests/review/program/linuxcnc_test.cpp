@@ -148,6 +148,66 @@ TEST_F(ReadThroughLinuxCnc, BranchesAndRepeats) {
     expect_same(kBegin + text + "X10\nM2\n");
 }
 
+/// Without moves that stay where they are.
+std::vector<End> that_move(const std::vector<End>& all) {
+  std::vector<End> out;
+  for (const auto& e : all)
+    if (out.empty() || std::hypot(e.x - out.back().x, e.z - out.back().z) > 6e-5)
+      out.push_back(e);
+  return out;
+}
+
+TEST_F(ReadThroughLinuxCnc, RoughsAndFinishesContours) {
+  const std::string start = "G18 G21 G8 G90 G94 G97 S500 M3 F100\n";
+  const std::string outside =
+      "G0 X30 Z5\no100 sub\nG0 X10 Z1\nG1 Z-10\nX15 Z-20\nZ-30\nX26\no100 endsub\n";
+  const std::string inside =
+      "G0 X10 Z5\no100 sub\nG0 X25 Z1\nG1 Z-10\nX20 Z-20\nZ-30\nX15\no100 endsub\n";
+  const std::string face =
+      "G0 X30 Z5\no100 sub\nG0 X28 Z-20\nG1 X15\nX10 Z-10\nZ1\no100 endsub\n";
+  const std::string arcs =
+      "G0 X30 Z5\no100 sub\nG0 X10 Z1\nG1 Z-10\nG2 X15 Z-15 I5 K0\nG1 X20 C1\nZ-30 A2\n"
+      "X24\nG3 X26 Z-32 I0 K-2\nG1 W-3\nU2\no100 endsub\n";
+  for (const auto& [contour, cycle] : std::vector<std::pair<std::string, std::string>>{
+           {outside, "G71 Q100 D0.5 I4 R1\n"},
+           {outside, "G71.1 Q100 I5 R1\n"},
+           {outside, "G71 Q100 I4 R20\n"},
+           {outside, "G71 Q100 X28 Z3 D0.2\n"},
+           {outside, "G70 Q100\n"},
+           {outside, "G70 Q100 X28 Z4 D1 P2\n"},
+           {outside, "G70 Q100 D1 E0.25 P3\n"},
+           {inside, "G71 Q100 D0.5 I4 R1\n"},
+           {inside, "G70 Q100 D0.5\n"},
+           {face, "G72 Q100 D0.5 I6 R1\n"},
+           {face, "G72.1 Q100 I4\n"},
+           {arcs, "G71 Q100 I3 R1\n"},
+           {arcs, "G70 Q100\n"}}) {
+    const auto program = start + contour + cycle + "M2\n";
+    const auto read = read_linuxcnc(program);
+    for (const auto& u : read.unknown) ADD_FAILURE() << u.line << u.what << u.why;
+    SCOPED_TRACE(contour + cycle);
+    expect_ends(that_move(ends(read)), that_move(interpreted(program)), 0);
+  }
+}
+
+TEST(SubroutineCycles, TellWhatTheyCannotFollow) {
+  const std::string start =
+      "G18 G21 G8 G90 G94 G97 S500 M3 F100\nG0 X30 Z5\no100 sub\nG0 X10 Z1\nG1 Z-10\n"
+      "X8 Z-20\nX26\no100 endsub\n";
+  for (const char* cycle : {"G71 Q100\n", "G71 Q101\n", "G71\n", "G71.2 Q100\n",
+                            "G71 Q100 I0\n", "G42.1 D1\nG71 Q100\n", "G70 Q100 P0\n"})
+    EXPECT_FALSE(read_linuxcnc(start + cycle).unknown.empty()) << cycle;
+}
+
+TEST_F(ReadThroughLinuxCnc, DrillsOnTheAxis) {
+  const std::string begin = "G18 G21 G8 G90 G94 G97 S500 M3 F100\nG0 X20 Z25\nX0\nG17\n";
+  for (const char* text : {"G98 G81 X0 Z-20 R2\n", "G99 G81 X0 Z-20 R2\n",
+                           "G98 G82 X0 Z-20 R3 P0.5\n", "G98 G83 X0 Z-20 R2 Q7\nZ-30\n",
+                           "G98 G73 X0 Z-20 R2 Q7\n", "G98 G85 X0 Z-20 R2\n",
+                           "G98 G89 X0 Z-20 R2 P1\n", "G98 G81 X0 Z-20 R2\nZ-24 R1\n"})
+    expect_same(begin + text + "G80\nG18\nG0 X10 Z50\nM2\n");
+}
+
 /// Moves of the tip with the corner that the program gives, from the second compensated
 /// one on: where the first ends is each control's own.
 TEST_F(ReadThroughLinuxCnc, CompensatesTheNose) {
