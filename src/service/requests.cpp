@@ -529,7 +529,7 @@ std::span<const Request> requests() {
          return document::stability(request, context.catalogue, context.stop,
                                     context.tell);
        },
-       nullptr, drawn_stability, stability_report},
+       report::stability_text, drawn_stability, stability_report},
       {"multipass", "the literature's multi-pass problem -> certified optimum",
        kMultipassExample,
        [](const json& request, const Context&) -> ordered_json {

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "document/catalogue/entries.hpp"
 #include "document/json/fields.hpp"
@@ -336,6 +338,50 @@ void read_machine(Reader& r, Request& q) {
     r.problem_at("machine_rpm", "a range that holds one of speeds_rpm", "range");
 }
 
+/// "stability_margin" and "speed_margin", which the best cut keeps.
+void read_margins(Reader& r, Request& q) {
+  const auto share = [&](const char* key, const Bounds& bounds, double usual,
+                         const char* why) {
+    if (!q.speeds_rpm.empty() && !r.has(key))
+      q.assumed.push_back(
+          {{"pointer", std::string("/") + key}, {"value", usual}, {"why", why}});
+    return r.number_or(key, bounds, usual);
+  };
+  const Margins usual;
+  q.margins.depth = share("stability_margin", within(0, 10), usual.depth,
+                          "the best cut stays stable when it is deeper by this share");
+  q.margins.speed =
+      share("speed_margin", within(0, 0.2), usual.speed,
+            "and at all speeds slower or faster by this share, or with all natural "
+            "frequencies higher or lower by it");
+}
+
+/// What milling removes in a revolution per depth, if feed and diameter are known, and the
+/// machine's power and torque, which limit the best cut.
+void read_spindle(Reader& r, const Named& named, Request& q) {
+  SpindleLoad load;
+  load.power_kW = r.optional_number("machine_power_kW", above_up_to(0, 1000, "kW"));
+  load.torque_Nm = r.optional_number("machine_torque_Nm", above_up_to(0, 1e5, "Nm"));
+  const double fz = q.cutter ? q.cutter->feed_mm : 0;
+  const double diameter = q.cutter ? q.cutter->diameter_mm : 0;
+  if (load.power_kW || load.torque_Nm) {
+    if (!r.has("feed_mm"))
+      r.problem_at("feed_mm", "a feed per tooth, for the machine's power and torque",
+                   "missing");
+    if (!r.has("diameter_mm") && !named && !r.has("cutter"))
+      r.problem_at("diameter_mm", "a diameter, for the machine's power and torque",
+                   "missing");
+  }
+  if (!(fz > 0 && diameter > 0)) return;
+  const double ae =
+      diameter * (std::cos(q.system.entry_rad) - std::cos(q.system.exit_rad)) / 2;
+  q.removed_mm2 = q.system.teeth * fz * ae;
+  constexpr double m_per_mm = 1e-3;
+  load.torque_Nm_mm = m_per_mm * std::get<LinearForce>(q.system.force).Kt_MPa *
+                      *q.removed_mm2 / (2 * units::kPi);
+  q.spindle = load;
+}
+
 /// "method" with its own key.
 void read_method(Reader& r, Request& q) {
   q.method = r.choice_or<Method>("method",
@@ -361,6 +407,16 @@ void refuse_beside_shape(Reader& r, const Request& q) {
                  "range");
 }
 
+void refuse_without_speeds(Reader& r, const Request& q) {
+  std::vector<std::string_view> keys{"depths", "uncertainty", "machine_rpm",
+                                     "stability_margin", "speed_margin"};
+  if (q.model == Model::milling)
+    keys.insert(keys.end(), {"machine_power_kW", "machine_torque_Nm"});
+  for (const std::string_view key : keys)
+    if (!r.broken() && r.has(key) && !r.has("speeds_rpm"))
+      r.problem_at(key, "no such key without speeds_rpm", "exclusive");
+}
+
 Request read_request(const json& request, const Catalogue& catalogue,
                      Problems& problems) {
   Request q;
@@ -378,6 +434,7 @@ Request read_request(const json& request, const Catalogue& catalogue,
     if (q.model == Model::power_law) read_power_law(r, q);
     if (q.model == Model::turning) read_turning(r, q);
     if (q.model != Model::power_law) read_cutter(r, named, q);
+    if (q.model == Model::milling) read_spindle(r, named, q);
   }
   read_method(r, q);
   read_speeds(r, q);
@@ -385,6 +442,7 @@ Request read_request(const json& request, const Catalogue& catalogue,
   read_depths(r, q);
   read_uncertainty(r, q);
   read_machine(r, q);
+  read_margins(r, q);
   for (Reader& point : r.optional_items("points", 1, kPoints)) {
     point = point.as_object();
     chatter::OperatingPoint p;
@@ -406,9 +464,7 @@ Request read_request(const json& request, const Catalogue& catalogue,
     r.problem_at("speeds_rpm", "speeds_rpm or points", "missing");
   if (!r.broken() && r.has("speeds_rpm") && !r.has("ap_max_mm"))
     r.problem_at("ap_max_mm", expected_number(kDepth) + " to search up to", "missing");
-  for (const std::string_view key : {"depths", "uncertainty", "machine_rpm"})
-    if (!r.broken() && r.has(key) && !r.has("speeds_rpm"))
-      r.problem_at(key, "no such key without speeds_rpm", "exclusive");
+  refuse_without_speeds(r, q);
   if (known) r.finish();
   return q;
 }

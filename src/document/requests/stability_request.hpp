@@ -24,7 +24,8 @@ struct Request : chatter::ChartRequest {
   std::vector<MeasuredAxis> measured;  // whose modes `system` holds
   bool modes_of_cutter = false;        // those of its document
   std::optional<Chip> chip;
-  bool speeds_listed = false;  // one by one, not as a range
+  std::optional<double> removed_mm2;  // per revolution and depth: teeth fz ae, if known
+  bool speeds_listed = false;         // one by one, not as a range
   nlohmann::ordered_json assumed = nlohmann::ordered_json::array();
 
   std::string pointer_of_speed(std::size_t i) const {
