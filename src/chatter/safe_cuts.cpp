@@ -16,7 +16,7 @@ namespace {
 constexpr int kSteps = 16;  // between a speed and either end of its band
 // The speeds about a safe cut at which its depth is stable are looked for so far, at speeds
 // so far apart, and the end between two of them so near.
-constexpr double kReach = 0.1, kStride = 0.005, kResolve = 1e-4;
+constexpr double kReach = 0.1, kStride = 0.01, kResolve = 1e-3;
 
 constexpr double kNothing = 0;  // a depth that is always stable
 

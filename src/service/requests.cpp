@@ -31,6 +31,7 @@
 #include "turnwright/document/learn.hpp"
 #include "turnwright/document/multipass.hpp"
 #include "turnwright/document/nc.hpp"
+#include "turnwright/document/overhang.hpp"
 #include "turnwright/document/part_plan.hpp"
 #include "turnwright/document/process_plan.hpp"
 #include "turnwright/document/quote.hpp"
@@ -148,6 +149,21 @@ constexpr const char* kStabilityExample = R"({
     {"axis": "x", "frequency_Hz": 922, "damping_ratio": 0.011, "mass_kg": 0.03993}],
   "ap_max_mm": 6, "speeds_rpm": {"from": 17000, "to": 19000, "count": 3},
   "points": [{"n_rpm": 5000, "ap_mm": 1}]})";
+
+constexpr const char* kOverhangExample = R"({
+  "spindle": [{"axis": "x", "modes": [
+    {"frequency_Hz": 600, "damping_ratio": 0.04, "stiffness_N_mm": 40000, "pivot_mm": 150},
+    {"frequency_Hz": 1500, "damping_ratio": 0.03, "stiffness_N_mm": 60000,
+     "pivot_mm": -90}]}],
+  "holder": [{"length_mm": 60, "diameter_mm": 40, "E_MPa": 205000, "density_kg_m3": 7850,
+              "loss_factor": 0.01}],
+  "tool": [{"diameter_mm": 12, "E_MPa": 580000, "density_kg_m3": 14300},
+           {"length_mm": 26, "diameter_mm": 9.6, "E_MPa": 580000, "density_kg_m3": 14300}],
+  "overhangs_mm": [45, 60], "from_Hz": 200, "to_Hz": 4000,
+  "cut": {"model": "milling", "teeth": 2, "Kt_MPa": 600, "Kn_MPa": 200,
+          "radial_immersion": 0.1, "direction": "down", "ap_max_mm": 8,
+          "speeds_rpm": {"from": 8000, "to": 16000, "count": 5}}})";
+
 constexpr const char* kMultipassExample = R"({
   "dt_mm": 8, "cost": "literal", "PU": 4, "T": [25, 45], "n_max": 6})";
 
@@ -530,6 +546,14 @@ std::span<const Request> requests() {
                                     context.tell);
        },
        report::stability_text, drawn_stability, stability_report},
+      {"overhang",
+       "spindle receptance, holder, tool, overhangs -> modes at the tip, limits of a cut",
+       kOverhangExample,
+       [](const json& request, const Context& context) -> ordered_json {
+         return document::overhang(request, context.catalogue, context.stop,
+                                   context.tell);
+       },
+       report::overhang_text},
       {"multipass", "the literature's multi-pass problem -> certified optimum",
        kMultipassExample,
        [](const json& request, const Context&) -> ordered_json {

@@ -49,7 +49,7 @@ struct SafeCut {
   DepthEnd limited_by = DepthEnd::chatter;
   std::optional<double> limit_mm;  ///< B(n); none: it is stable up to ap_max
   /// About n: the speeds between which `at.ap_mm` is stable without a margin, looked for
-  /// within 10 % of n at speeds 0.5 % apart.  None where that takes long.
+  /// within 10 % of n at speeds 1 % apart.  None where that takes long.
   std::optional<SpeedRange> stable;
   /// Where chatter limits the depth: frequency at the least B of (1).
   std::optional<double> chatter_Hz;

@@ -11,6 +11,7 @@
 
 #include "document/catalogue/entries.hpp"
 #include "document/json/fields.hpp"
+#include "mode_reader.hpp"
 #include "reference_work.hpp"
 #include "turnwright/base/units.hpp"
 #include "turnwright/cutting/fixed.hpp"
@@ -28,35 +29,8 @@ constexpr std::size_t kDrawn = 10000, kSearches = 100'000;  // samples, times sp
 constexpr double kSlenderDamping = 0.03;
 constexpr std::size_t kShapedSpeeds = 500;  // of cutters beyond straight and even edges
 const Bounds kSpeed = within(1, 1e6, "1/min"), kDepth = above_up_to(0, 1000, "mm"),
-             kPointDepth = within(0, 1000, "mm"), kModeFrequency = within(0.1, 1e6, "Hz"),
-             kDamping = within(1e-6, 10), kMass = within(1e-9, 1e9, "kg"),
-             kStiffness = within(1e-6, 1e12, "N/mm"),
-             kPressure = within(1e-3, 1e6, "MPa"), kFeed = above_up_to(0, 10, "mm");
-
-double stiffness_N_mm(double mass_kg, double wn_rad_s) {
-  return mass_kg * wn_rad_s * wn_rad_s / 1000;  // N/m to N/mm
-}
-
-/// Stiffness, given directly or by a mass.
-double read_stiffness(Reader& r, double wn_rad_s) {
-  const auto mass = r.optional_number("mass_kg", kMass);
-  const auto stiffness = r.optional_number("stiffness_N_mm", kStiffness);
-  if (mass && stiffness)
-    r.problem_at("mass_kg", "either mass_kg or stiffness_N_mm", "exclusive");
-  else if (!mass && !stiffness)
-    r.problem_at("stiffness_N_mm", "stiffness_N_mm or mass_kg", "missing");
-  return mass ? stiffness_N_mm(*mass, wn_rad_s) : stiffness.value_or(1);
-}
-
-Mode read_mode(Reader r, Axis axis, std::optional<double> damping) {
-  Mode mode{.axis = axis};
-  mode.wn_rad_s = 2 * units::kPi * r.number("frequency_Hz", kModeFrequency);
-  mode.zeta = damping ? r.number_or("damping_ratio", kDamping, *damping)
-                      : r.number("damping_ratio", kDamping);
-  mode.k_N_mm = read_stiffness(r, mode.wn_rad_s);
-  r.finish();
-  return mode;
-}
+             kPointDepth = within(0, 1000, "mm"), kPressure = within(1e-3, 1e6, "MPa"),
+             kFeed = above_up_to(0, 10, "mm");
 
 enum class Direction { down, up, slot };
 
@@ -180,8 +154,8 @@ void read_power_law(Reader& r, Request& q) {
   q.system.exit_rad = units::kPi;
   Mode mode;
   mode.wn_rad_s = r.number("natural_frequency_rad_s", within(1, 1e7, "rad/s"));
-  mode.zeta = r.number("damping_ratio", kDamping);
-  mode.k_N_mm = stiffness_N_mm(r.number("mass_kg", kMass), mode.wn_rad_s);
+  mode.zeta = r.number("damping_ratio", kModeDamping);
+  mode.k_N_mm = stiffness_N_mm(r.number("mass_kg", kModeMass), mode.wn_rad_s);
   q.system.modes = {mode};
   PowerLawForce force;
   force.C = r.number("C", within(1, 1e15, "N m^-(1 + gamma)"));

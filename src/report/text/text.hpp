@@ -48,6 +48,10 @@ std::string learn_text(const nlohmann::ordered_json& learn_result);
 /// of the speeds, modes of measured responses, what is undecided.
 std::string stability_text(const nlohmann::ordered_json& stability_result);
 
+/// The result document of `overhang` (schemas/overhang.result.json): the least limit and the
+/// best cut with each overhang, requested cuts, the modes at the tip.
+std::string overhang_text(const nlohmann::ordered_json& overhang_result);
+
 /// The result document of `review` (schemas/review.result.json): the cuts of each program
 /// with the limits that they do not keep, what is not known, sizes, and what a plan saves.
 std::string review_text(const nlohmann::ordered_json& review_result);
