@@ -193,7 +193,8 @@ void read_cut(Reader& r, const json& request, const Catalogue& catalogue,
   const json& document = request.at("cut");
   const auto model = cut.choice<bool>("model", {{"milling", false}, {"turning", true}});
   q.turning = model;
-  for (const char* key : {"modes", "frf", "method", "uncertainty", "depths"})
+  for (const char* key :
+       {"modes", "frf", "method", "uncertainty", "depths", "speed_variation"})
     if (cut.has(key))
       cut.problem_at(key, "no such key in the cut of an overhang", "exclusive");
   if (problems.list.size() > 0) return;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "stability_request.hpp"
+#include "turnwright/base/cancelled.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/base/units.hpp"
 #include "turnwright/chatter/chart.hpp"
@@ -176,11 +177,33 @@ ordered_json described(const Request& q, const SafeCut& best) {
   return out;
 }
 
-void add_speeds(const Request& q, const StabilityChart& chart, ordered_json& out) {
+/// The limits with each variation of the speed, beside the one without.
+ordered_json varied(const Request& q, const SpeedLimits& constant,
+                    const std::stop_token& stop) {
+  ordered_json out = ordered_json::array();
+  for (const SpeedVariation& v : q.variations) {
+    leave_if(stop);
+    ordered_json told{{"rva", v.rva}, {"rvf", v.rvf}};
+    try {
+      const VariedLimit limit = varied_limit(q.system, constant.n_rpm, v, *q.ap_max_mm);
+      told["limit_mm"] = or_null(limit.limit_mm);
+      told["relative_error"] =
+          limit.limit_mm ? ordered_json(limit.relative_error) : ordered_json();
+    } catch (const ModelRangeError& e) {
+      told["why"] = e.what();
+    }
+    out.push_back(std::move(told));
+  }
+  return out;
+}
+
+void add_speeds(const Request& q, const StabilityChart& chart,
+                const std::stop_token& stop, ordered_json& out) {
   if (chart.speeds.empty()) return;
   for (const ChartSpeed& speed : chart.speeds) {
     ordered_json told = described(speed.limits);
     if (speed.uncertain) told["uncertain"] = described(*speed.uncertain);
+    if (!q.variations.empty()) told["varied"] = varied(q, speed.limits, stop);
     out["speeds"].push_back(std::move(told));
   }
   if (!q.depths_mm.empty()) out["depths_mm"] = q.depths_mm;
@@ -199,7 +222,7 @@ ordered_json stability(const json& request, const Catalogue& catalogue,
   ordered_json out{{"format", "turnwright-stability-result/1"}};
   const StabilityChart chart = stability_chart(q, stop, tell);
   add_basis(q, out);
-  add_speeds(q, chart, out);
+  add_speeds(q, chart, stop, out);
   for (const ChartPoint& point : chart.points)
     out["points"].push_back(described(q, point));
   add_undecided(q, chart, out);

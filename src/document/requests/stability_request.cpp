@@ -27,6 +27,7 @@ constexpr std::size_t kModes = 20, kSpeeds = 10000, kPoints = 10000, kChecked = 
 constexpr std::size_t kCounted = 1000, kCuts = 1'000'000;   // depths of a speed, cuts
 constexpr std::size_t kDrawn = 10000, kSearches = 100'000;  // samples, times speeds
 constexpr double kSlenderDamping = 0.03;
+constexpr std::size_t kVariations = 20, kVaried = 200;  // of a list, of all
 constexpr std::size_t kShapedSpeeds = 500;  // of cutters beyond straight and even edges
 const Bounds kSpeed = within(1, 1e6, "1/min"), kDepth = above_up_to(0, 1000, "mm"),
              kPointDepth = within(0, 1000, "mm"), kPressure = within(1e-3, 1e6, "MPa"),
@@ -240,6 +241,28 @@ void read_cutter(Reader& r, const Named& named, Request& q) {
   q.cutter = std::move(cutter);
 }
 
+/// "speed_variation": every amplitude with every frequency.
+void read_variations(Reader& r, Request& q) {
+  auto found = r.find("speed_variation");
+  if (!found) return;
+  Reader v = found->as_object();
+  const auto amplitudes = v.numbers("rva", within(0, 0.9), 1, kVariations);
+  const auto frequencies = v.numbers("rvf", within(0.01, 1), 1, kVariations);
+  v.finish();
+  for (const double rva : amplitudes)
+    for (const double rvf : frequencies) q.variations.push_back({rva, rvf});
+  for (const char* key : {"process_damping", "uncertainty", "method"})
+    if (r.has(key)) r.problem_at(key, "no such key with speed_variation", "exclusive");
+  if (q.variations.size() * q.speeds_rpm.size() > kVaried)
+    r.problem_at("speed_variation",
+                 "at most " + std::to_string(kVaried) +
+                     " amplitudes times frequencies times speeds",
+                 "range");
+  for (const Mode& m : q.system.modes)
+    if (m.zeta >= 0.7)
+      r.problem_at("speed_variation", "damping ratios below 0.7", "range");
+}
+
 SpeedRange read_range(Reader& r) {
   const SpeedRange range{r.number("from", kSpeed), r.number("to", kSpeed)};
   if (range.from_rpm > range.to_rpm)
@@ -386,6 +409,7 @@ void refuse_without_speeds(Reader& r, const Request& q) {
                                      "stability_margin", "speed_margin"};
   if (q.model == Model::milling)
     keys.insert(keys.end(), {"machine_power_kW", "machine_torque_Nm"});
+  if (q.model == Model::turning) keys.push_back("speed_variation");
   for (const std::string_view key : keys)
     if (!r.broken() && r.has(key) && !r.has("speeds_rpm"))
       r.problem_at(key, "no such key without speeds_rpm", "exclusive");
@@ -417,6 +441,7 @@ Request read_request(const json& request, const Catalogue& catalogue,
   read_uncertainty(r, q);
   read_machine(r, q);
   read_margins(r, q);
+  if (q.model == Model::turning && known) read_variations(r, q);
   for (Reader& point : r.optional_items("points", 1, kPoints)) {
     point = point.as_object();
     chatter::OperatingPoint p;

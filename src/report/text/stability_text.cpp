@@ -66,6 +66,24 @@ std::string speeds(const ordered_json& result) {
          magic(result);
 }
 
+/// Limits with and without a variation of the speed.
+std::string varied(const ordered_json& result) {
+  std::vector<Row> rows;
+  for (const auto& speed : list(result, "speeds"))
+    for (const auto& v : list(speed, "varied")) {
+      if (rows.size() == kShownSpeeds) break;
+      rows.push_back(
+          {{shown(number(speed, "n_rpm"), 0),
+            significant(100 * number(v, "rva").value_or(0), 3),
+            significant(number(v, "rvf"), 3), significant(number(v, "limit_mm")),
+            significant(number(speed, "limit_mm"))},
+           word(v, "why")});
+    }
+  if (rows.empty()) return "";
+  return "\nSWINGING SPEED  stable to, mm; - where it is to the largest depth\n" +
+         table({{"1/min"}, {"+- %"}, {"times a turn"}, {"swinging"}, {"constant"}}, rows);
+}
+
 std::string modes(const ordered_json& result) {
   std::vector<Row> rows;
   for (const auto& r : list(result, "frf"))
@@ -93,8 +111,8 @@ std::string undecided(const ordered_json& result) {
 
 std::string stability_text(const ordered_json& result) {
   return "STABILITY OF THE CUT\n" + made_by(result) + best(result) + points(result) +
-         speeds(result) + modes(result) + undecided(result) + warnings(result) +
-         assumption_lines(result);
+         speeds(result) + varied(result) + modes(result) + undecided(result) +
+         warnings(result) + assumption_lines(result);
 }
 
 }  // namespace turnwright::report

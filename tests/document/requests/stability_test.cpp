@@ -356,6 +356,37 @@ TEST(Stability, ACutThatChattersIsToldItsFrequencyAndItsCure) {
   EXPECT_FALSE(answered(q)["points"][0].contains("limit_mm"));
 }
 
+TEST(Stability, LimitsWithASwingingSpeedStandBesideThoseWithout) {
+  json q = example(17);
+  const json speeds = answered(q)["speeds"];
+  for (const json& s : speeds) {
+    ASSERT_EQ(s["varied"].size(), 2u);
+    EXPECT_EQ(s["varied"][0]["rva"], 0.1);
+    EXPECT_EQ(s["varied"][1]["rva"], 0.3);
+  }
+  q["speed_variation"]["rva"] = {0};
+  q["ap_max_mm"] = 5;
+  for (const json& s : answered(q)["speeds"])
+    EXPECT_NEAR(s["varied"][0]["limit_mm"].get<double>() / s["limit_mm"].get<double>(), 1,
+                1e-7);
+  q["speeds_rpm"] = {1};
+  q["ap_max_mm"] = 0.05;
+  q["speed_variation"]["rva"] = {0.2};
+  EXPECT_TRUE(answered(q)["speeds"][0]["varied"][0]["limit_mm"].is_null());
+  q["ap_max_mm"] = 5;
+  EXPECT_TRUE(answered(q)["speeds"][0]["varied"][0].contains("why"));
+  q["speed_variation"] = {{"rva", {1}}, {"rvf", json::array()}};
+  q["process_damping"] = {{"C_N_mm", 100}};
+  q["diameter_mm"] = 60;
+  EXPECT_EQ(
+      refused(q),
+      "stability: /speed_variation/rva/0: got 1, expected a number from 0 to 0.9\n"
+      "stability: /speed_variation/rvf: got an empty list, expected a list of 1 to 20 "
+      "entries\n"
+      "stability: /process_damping: got an object, expected no such key with "
+      "speed_variation");
+}
+
 // A key whose value changes nothing changes no limit.
 TEST(Stability, EvenTeethAsPitchesAreThoseOfTheCutter) {
   json q = example(0);

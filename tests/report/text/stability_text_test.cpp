@@ -81,6 +81,17 @@ TEST(StabilityText, TellsWhatEndsTheBestDepth) {
   EXPECT_NE(stability_text(r).find("none of the speeds"), std::string::npos);
 }
 
+TEST(StabilityText, TellsLimitsWithASwingingSpeed) {
+  auto r = result();
+  EXPECT_EQ(stability_text(r).find("SWINGING"), std::string::npos);
+  r["speeds"][0]["varied"] = {
+      {{"rva", 0.3}, {"rvf", 0.1}, {"limit_mm", 1.93}, {"relative_error", 1e-9}},
+      {{"rva", 0.1}, {"rvf", 0.1}, {"why", "too long"}}};
+  const auto text = unwrapped(stability_text(r));
+  EXPECT_NE(text.find("10600 30 0.1 1.93 1.442"), std::string::npos) << text;
+  EXPECT_NE(text.find("too long"), std::string::npos);
+}
+
 TEST(StabilityText, LongTablesAreCutAndSaySo) {
   auto r = result();
   const auto speed = r["speeds"][0], point = r["points"][0];
