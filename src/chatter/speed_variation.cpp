@@ -24,7 +24,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kMostSpans = 20'000;  // of a period
-constexpr double kTurn = 2;             // [rad] of the fastest mode in a piece
+constexpr double kTurn = 2;            // [rad] of the fastest mode in a piece
 
 /// Time over the angle s of (1), both 0 at the beginning of a period.
 class Clock {

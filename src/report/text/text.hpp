@@ -52,6 +52,10 @@ std::string stability_text(const nlohmann::ordered_json& stability_result);
 /// best cut with each overhang, requested cuts, the modes at the tip.
 std::string overhang_text(const nlohmann::ordered_json& overhang_result);
 
+/// The result document of `listen` (schemas/listen.result.json): whether the cut chatters, at
+/// which frequency, speeds without it, the lines of the sound.
+std::string listen_text(const nlohmann::ordered_json& listen_result);
+
 /// The result document of `review` (schemas/review.result.json): the cuts of each program
 /// with the limits that they do not keep, what is not known, sizes, and what a plan saves.
 std::string review_text(const nlohmann::ordered_json& review_result);
