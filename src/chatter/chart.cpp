@@ -194,8 +194,10 @@ bool ChartRequest::shaped() const {
 }
 
 bool ChartRequest::quick() const {
+  constexpr std::size_t kModes = 6;  // with them a speed takes a twentieth of a second
   if (method != Method::fundamental_matrix) return false;
-  return !shaped() || std::holds_alternative<ConstantForce>(system.force);
+  return std::holds_alternative<ConstantForce>(system.force) ||
+         (!shaped() && system.modes.size() <= kModes);
 }
 
 StabilityChart stability_chart(const ChartRequest& q, const std::stop_token& stop,

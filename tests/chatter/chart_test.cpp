@@ -182,6 +182,29 @@ TEST(Chart, BestIsNotBesideASpeedThatIsUndecided) {
   EXPECT_EQ(SafeCuts(known, search, {}).best()->at.n_rpm, 7000);
 }
 
+// Where other speeds take long, those of the chart alone are judged.
+TEST(Chart, ManyModesAreJudgedAtTheSpeedsOfTheChart) {
+  ChartRequest q;
+  for (int i = 0; i < 7; ++i)
+    q.system.modes.push_back({Axis::x, 4000 + 900.0 * i, 0.05, 2e4});
+  q.system.teeth = 2;
+  const Engagement cut = down_milling(0.2);
+  q.system.entry_rad = cut.entry_rad;
+  q.system.exit_rad = cut.exit_rad;
+  q.system.force = LinearForce{600, 200};
+  q.ap_max_mm = 0.5;
+  q.speeds_rpm = {20000, 20100};
+  q.points = {{20000, 0.1}, {20050, 0.1}};
+  const auto chart = stability_chart(q);
+  ASSERT_TRUE(chart.best);
+  EXPECT_EQ(chart.best->speeds_judged, 2U);
+  EXPECT_FALSE(chart.best->stable);
+  EXPECT_TRUE(chart.points[0].margin);
+  EXPECT_FALSE(chart.points[1].margin);
+  q.system.modes.pop_back();
+  EXPECT_EQ(stability_chart(q).best->speeds_judged, 34U);
+}
+
 // The same motion in t/tau: an error of all frequencies is one of the speed.
 TEST(Chart, LimitsAreThoseOfSpeedOverFrequency) {
   auto q = turning({});

@@ -137,6 +137,9 @@ TEST(Sound, RefusesWhatIsTooShort) {
   cut.seconds = 0.15;  // 15 revolutions
   EXPECT_THROW(listen(sound_of(cut, 1), {.n_rpm = 6000, .teeth = 4, .to_Hz = {}}),
                ModelRangeError);
+  const Sound slow{48000, std::vector<double>(2'000'000)};  // 16 turns of 1 s: 768,000
+  EXPECT_NO_THROW(listen(slow, {.n_rpm = 60, .teeth = 1, .to_Hz = {}}));
+  EXPECT_THROW(listen(slow, {.n_rpm = 40, .teeth = 1, .to_Hz = {}}), ModelRangeError);
 }
 
 // 1430 Hz at 12,000/min with 4 teeth: 1.79 vibrations from tooth to tooth.

@@ -37,8 +37,8 @@ struct ChartRequest {
 
   /// Whether depth and delay enter by more than one number kappa, see cutter.hpp.
   bool shaped() const;
-  /// Whether limits at speeds beside those of the chart are found in milliseconds: by
-  /// limits.hpp, or of turning.
+  /// Whether limits at speeds beside those of the chart are found soon: of turning, and of
+  /// plain cutters with up to six modes, by limits.hpp.
   bool quick() const;
 };
 

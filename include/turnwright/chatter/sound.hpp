@@ -57,7 +57,8 @@ struct Heard {
 /// harmonics of the spindle and is not heard; neither is chatter that happens to lie within
 /// those ranges.  A fan or a pump may be taken for chatter: listen to an idle cut, too.
 /// Source: derived here, checked in sound_test on simulated sounds.
-/// @throws ModelRangeError if the sound is shorter than 16 revolutions, or 0.05 s.
+/// @throws ModelRangeError if the sound is shorter than 16 revolutions or 0.05 s, or if 16
+///   revolutions have more than 2^20 samples, the most of a block.
 Heard listen(const Sound& sound, const ListenOptions& options);
 
 /// A speed at which a vibration keeps step with the teeth.

@@ -17,8 +17,9 @@ namespace turnwright::chatter {
 namespace {
 
 constexpr double kTurns = 32, kLeastTurns = 16, kBlock_s = 0.25, kLeast_s = 0.05;
-constexpr double kBeside = 2.5;     // lines of resolution about a harmonic
-constexpr double kUnsteady = 5e-4;  // of its frequency
+constexpr double kMostSamples = 1 << 20;  // of a block: some 200 MB
+constexpr double kBeside = 2.5;           // lines of resolution about a harmonic
+constexpr double kUnsteady = 5e-4;        // of its frequency
 constexpr double kStandsOut_dB = 15, kShare = 0.1;
 constexpr std::size_t kTold = 10;  // lines, harmonics
 
@@ -78,8 +79,10 @@ class SoundSpectrum {
   }
   /// A peak by the parabola through the logarithms of it and its neighbours.
   SoundLine peak(std::size_t at, double noise) const {
-    const double a = std::log(power_[at - 1]), b = std::log(power_[at]),
-                 c = std::log(power_[at + 1]);
+    const auto height = [&](std::size_t i) {  // finite also of silence
+      return std::log(std::max(power_[i], std::numeric_limits<double>::min()));
+    };
+    const double a = height(at - 1), b = height(at), c = height(at + 1);
     const double shift = 0.5 * (a - c) / (a - 2 * b + c);
     return {(static_cast<double>(at) + shift) * step_Hz_, std::sqrt(power_[at]),
             decibel(power_[at] / noise)};
@@ -93,7 +96,8 @@ class SoundSpectrum {
 class Listener {
  public:
   Listener(const Sound& sound, const ListenOptions& o)
-      : spectrum_(sound, std::max(kTurns * 60 / o.n_rpm, kBlock_s)),
+      : spectrum_(sound, std::min(std::max(kTurns * 60 / o.n_rpm, kBlock_s),
+                                  kMostSamples / sound.rate_Hz)),
         turn_Hz_(o.n_rpm / 60) {
     out_.resolution_Hz = spectrum_.resolution_Hz();
     out_.from_Hz = std::max(o.from_Hz, 4 * out_.resolution_Hz);
@@ -219,6 +223,10 @@ class Listener {
 }  // namespace
 
 Heard listen(const Sound& sound, const ListenOptions& options) {
+  if (kLeastTurns * 60 / options.n_rpm * sound.rate_Hz > kMostSamples)
+    throw ModelRangeError(
+        "listen: 16 revolutions have more than 1,048,576 samples; record at a lower "
+        "rate");
   const double length_s = static_cast<double>(sound.value.size()) / sound.rate_Hz;
   if (!(length_s * options.n_rpm / 60 >= kLeastTurns && length_s >= kLeast_s))
     throw ModelRangeError(
