@@ -205,6 +205,7 @@ set_source_files_properties(src/report/picture/drawing.cpp
   src/report/picture/milled_drawing.cpp src/report/picture/path_drawing.cpp
   src/report/picture/stability_chart.cpp src/report/picture/window_drawing.cpp
   src/document/requests/chuck.cpp src/document/requests/deflection.cpp
+  src/document/requests/overhang.cpp
   src/document/requests/stability.cpp src/document/requests/stability_request.cpp
   src/service/http/arrival.cpp src/service/http/connection.cpp
   tests/service/little_memory.cpp

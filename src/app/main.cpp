@@ -37,6 +37,7 @@
 #include "service/requests.hpp"
 #include "terminal.hpp"
 #include "turnwright/base/errors.hpp"
+#include "turnwright/document/listen.hpp"
 #include "turnwright/document/nc.hpp"
 
 namespace turnwright::app {
@@ -58,6 +59,7 @@ struct Arguments {
   std::optional<fs::path> table, part;  ///< of measured parts, in place of a request
   std::vector<fs::path> results;        ///< QIF files of measured parts
   std::vector<fs::path> responses;      ///< files of measured responses, for `frf`
+  std::optional<fs::path> sound;        ///< of a cut, for `wav`
   bool update = false;                  ///< the factors of the models by them
   bool json = false;
   std::string listed;
@@ -271,6 +273,12 @@ bool is_of_chatter(const service::Request& row) {
   return service::request_schema(row) == "stability.request.json";
 }
 
+bool is_of_sound(const service::Request& row) {
+  return service::request_schema(row) == "listen.request.json";
+}
+
+constexpr ForeignFile kSound{"sound", ".wav file", document::kLargestSound / 4 * 3};
+
 constexpr ForeignFile kResponse{"measurement", "CSV or universal file",
                                 document::kLocalLimits.bytes};
 
@@ -311,6 +319,9 @@ nlohmann::json asked(const Arguments& arguments) {
   if (arguments.part) request["part"] = document::parse_file(*arguments.part);
   if (arguments.update) request["update"] = true;
   for (const auto& file : arguments.responses) add_response(file, request);
+  if (arguments.sound)
+    request["wav"] =
+        document::sound_base64(read_foreign_file(arguments.sound->string(), kSound));
   return request;
 }
 
@@ -405,6 +416,9 @@ void add_commands(CLI::App& app, Arguments& arguments, std::function<Exit()>& ch
       add_paths(*command, "--frf", arguments.responses,
                 "measured response (CSV, universal file) of the next entry of frf; taps "
                 "where that has the key taps");
+    if (is_of_sound(row))
+      add_path(*command, "--wav", arguments.sound,
+               "sound of the cut, as wav of the request");
     add_path(*command, "-o,--output", arguments.result_file,
              "write the result (JSON) here; - is standard output",
              Dash::is_standard_output);

@@ -4,8 +4,11 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <span>
 #include <utility>
+#include <variant>
 
+#include "safe_cuts.hpp"
 #include "turnwright/base/cancelled.hpp"
 #include "turnwright/chatter/limits.hpp"
 #include "turnwright/chatter/reference_methods.hpp"
@@ -28,14 +31,14 @@ Dominant by_reference(const ChartRequest& q, double n_rpm, double ap_mm,
   return simulation(q.system, n_rpm, ap_mm);
 }
 
-SpeedLimits limits_of(const ChartRequest& q, double n_rpm, double work,
-                      const std::stop_token& stop) {
+SpeedLimits search(const ChartRequest& q, double n_rpm, double ap_mm, double work,
+                   const std::stop_token& stop, std::span<const double> depths_mm = {}) {
   leave_if(stop);
-  if (q.shaped()) return speed_limits(*q.cutter, n_rpm, *q.ap_max_mm, q.depths_mm, work);
+  if (q.shaped()) return speed_limits(*q.cutter, n_rpm, ap_mm, depths_mm, work);
   if (q.method == Method::fundamental_matrix)
-    return speed_limits(q.system, n_rpm, *q.ap_max_mm, q.depths_mm);
-  return scanned_limits(q.system, n_rpm, *q.ap_max_mm, kDepths, [&](double ap_mm) {
-    return by_reference(q, n_rpm, ap_mm, stop);
+    return speed_limits(q.system, n_rpm, ap_mm, depths_mm);
+  return scanned_limits(q.system, n_rpm, ap_mm, kDepths, [&](double depth_mm) {
+    return by_reference(q, n_rpm, depth_mm, stop);
   });
 }
 
@@ -45,11 +48,11 @@ ChartPoint judged(const ChartRequest& q, const OperatingPoint& p,
   if (q.method != Method::fundamental_matrix) {
     const Dominant d = by_reference(q, p.n_rpm, p.ap_mm, stop);
     const double radius = std::abs(d.multiplier);
-    return {p, d.unstable, radius, radius < 1, {}};
+    return {p, d.unstable, radius, radius < 1, {}, {}};
   }
   const Multipliers m = q.shaped() ? multipliers(*q.cutter, p.n_rpm, p.ap_mm)
                                    : multipliers(q.system, p.n_rpm, p.ap_mm);
-  ChartPoint out{p, m.unstable, m.spectral_radius, m.unstable == 0, {}};
+  ChartPoint out{p, m.unstable, m.spectral_radius, m.unstable == 0, {}, {}};
   if (out.stable && q.cutter && q.cutter->feed_mm > 0 && p.ap_mm > 0)
     out.walls = surfaces(*q.cutter, p.n_rpm, p.ap_mm);
   return out;
@@ -107,17 +110,56 @@ double stable_mm(const SpeedLimits& speed, double ap_max) {
   return speed.limit_mm().value_or(ap_max);
 }
 
-void find_best(const ChartRequest& q, StabilityChart& out) {
-  const double ap_max = *q.ap_max_mm;
-  const auto volume = [&](const ChartSpeed& s) {
-    const double n_rpm = s.limits.n_rpm;
-    const bool possible = !q.machine || q.machine->holds(n_rpm);
-    return possible ? n_rpm * stable_mm(s.limits, ap_max) : 0;
-  };
-  const auto at = std::ranges::max_element(out.speeds, {}, volume);
-  if (!(volume(*at) > 0)) return;
-  out.best = {at->limits.n_rpm, stable_mm(at->limits, ap_max)};
-  out.best_is_limited_by_chatter = at->limits.limit_mm().has_value();
+/// The loss of stability next below a depth that chatters.
+std::optional<double> chatter_Hz(const SpeedLimits& limits, double ap_mm) {
+  std::optional<double> out;
+  for (const Crossing& c : limits.crossings)
+    if (c.loss && c.ap_mm <= ap_mm) out = c.frequency_Hz;
+  return out;
+}
+
+/// The limits at the speed of a point, searched at least up to its depth; none where they
+/// are not known or take long.
+std::optional<SpeedLimits> limits_at(const ChartRequest& q, const StabilityChart& chart,
+                                     const OperatingPoint& p,
+                                     const std::stop_token& stop) {
+  if (p.ap_mm <= *q.ap_max_mm)
+    for (const ChartSpeed& s : chart.speeds)
+      if (s.limits.n_rpm == p.n_rpm &&
+          (!s.limits.searched_mm || p.ap_mm <= *s.limits.searched_mm))
+        return s.limits;
+  if (!q.quick()) return std::nullopt;
+  try {
+    return search(q, p.n_rpm, std::max(*q.ap_max_mm, p.ap_mm), q.work, stop);
+  } catch (const ModelRangeError&) {
+    return std::nullopt;
+  }
+}
+
+/// @param safe  null if there are no speeds.
+std::optional<PointMargin> margin_of(const ChartRequest& q, const StabilityChart& chart,
+                                     const ChartPoint& point, SafeCuts* safe,
+                                     const std::stop_token& stop) {
+  if (!q.ap_max_mm) return std::nullopt;
+  const auto limits = limits_at(q, chart, point.at, stop);
+  if (!limits) return std::nullopt;
+  PointMargin out;
+  out.limit_mm = limits->limit_mm();
+  if (point.stable) return out;
+  out.chatter_Hz = chatter_Hz(*limits, point.at.ap_mm);
+  if (safe) out.cure = safe->cure(point.at);
+  return out;
+}
+
+KnownLimits known_limits(const ChartRequest& q, const StabilityChart& chart) {
+  KnownLimits out{.speeds = {},
+                  .ap_max_mm = *q.ap_max_mm,
+                  .margins = q.margins,
+                  .machine = q.machine,
+                  .spindle = q.spindle};
+  for (const double n : q.speeds_rpm) out.speeds.push_back({n, nullptr});
+  for (const ChartSpeed& s : chart.speeds) out.speeds[s.index].limits = &s.limits;
+  return out;
 }
 
 void find_magic(const ChartRequest& q, StabilityChart& out) {
@@ -151,6 +193,13 @@ bool ChartRequest::shaped() const {
                     cutter->indentation_N_mm > 0);
 }
 
+bool ChartRequest::quick() const {
+  constexpr std::size_t kModes = 6;  // with them a speed takes a twentieth of a second
+  if (method != Method::fundamental_matrix) return false;
+  return std::holds_alternative<ConstantForce>(system.force) ||
+         (!shaped() && system.modes.size() <= kModes);
+}
+
 StabilityChart stability_chart(const ChartRequest& q, const std::stop_token& stop,
                                const ChartProgress& tell) {
   StabilityChart out;
@@ -164,7 +213,7 @@ StabilityChart stability_chart(const ChartRequest& q, const std::stop_token& sto
   for (const std::size_t i : from_the_fastest(q.speeds_rpm)) {
     const double n_rpm = q.speeds_rpm[i];
     auto speed = speeds.at(i, {n_rpm, *q.ap_max_mm}, [&] {
-      ChartSpeed found{i, limits_of(q, n_rpm, work, stop), {}};
+      ChartSpeed found{i, search(q, n_rpm, *q.ap_max_mm, work, stop, q.depths_mm), {}};
       if (q.bands) {
         leave_if(stop);
         found.uncertain =
@@ -180,14 +229,23 @@ StabilityChart stability_chart(const ChartRequest& q, const std::stop_token& sto
     one_done();
   }
   std::ranges::sort(out.speeds, {}, &ChartSpeed::index);
+  std::optional<SafeCuts> safe;
   if (!out.speeds.empty()) {
-    find_best(q, out);
+    SafeCuts::Search beside;
+    if (q.quick())
+      beside = [&](double n_rpm, double ap_mm) {
+        return search(q, n_rpm, ap_mm, q.work, stop);
+      };
+    safe.emplace(known_limits(q, out), std::move(beside), stop);
+    out.best = safe->best();
     find_magic(q, out);
   }
   for (std::size_t i = 0; i < q.points.size(); ++i) {
     if (auto point =
-            points.at(i, q.points[i], [&] { return judged(q, q.points[i], stop); }))
+            points.at(i, q.points[i], [&] { return judged(q, q.points[i], stop); })) {
+      point->margin = margin_of(q, out, *point, safe ? &*safe : nullptr, stop);
       out.points.push_back(std::move(*point));
+    }
     one_done();
   }
   out.undecided_speeds = speeds.undecided();

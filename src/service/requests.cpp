@@ -29,8 +29,10 @@
 #include "turnwright/document/import.hpp"
 #include "turnwright/document/import_tools.hpp"
 #include "turnwright/document/learn.hpp"
+#include "turnwright/document/listen.hpp"
 #include "turnwright/document/multipass.hpp"
 #include "turnwright/document/nc.hpp"
+#include "turnwright/document/overhang.hpp"
 #include "turnwright/document/part_plan.hpp"
 #include "turnwright/document/process_plan.hpp"
 #include "turnwright/document/quote.hpp"
@@ -148,6 +150,60 @@ constexpr const char* kStabilityExample = R"({
     {"axis": "x", "frequency_Hz": 922, "damping_ratio": 0.011, "mass_kg": 0.03993}],
   "ap_max_mm": 6, "speeds_rpm": {"from": 17000, "to": 19000, "count": 3},
   "points": [{"n_rpm": 5000, "ap_mm": 1}]})";
+
+// Four teeth at 6000/min, and 730 Hz: 0.22 s of 16 bits at 4 kHz.
+constexpr const char* kListenExample =
+    R"({"n_rpm": 6000, "teeth": 4, "wav": ")"
+    "UklGRgQHAABXQVZFZm10IBAAAAABAAEAoA8AAEAfAAACABAAZGF0YeAGAACNFUQ9rDV6E3r+"
+    "rgQ2Cx35r9hEzsDxNSnoRZsuS/3I4Trn6fae7zvbq9sMANQwdD1cGHzhXcd2147zf/zV8ZH0"
+    "ixO6Nyc2EAhY0i3CNOIiDJ8cNBAmCyEdHDEmJBr1DMbUxUfx4iHLLoMZUwSQCBUUCAbz2x+8"
+    "ysnnAIUwuzFWDsHv2O7t+Nzz/dfZyA3jZRtGQ582kwd14XrhkPYf+8XukuhBA9ozM0qaLJ/0"
+    "Js8m2PD4QwubApj7Ag9ILtg24A2m1C64vc/w/ekXuw7d/6QHJRuvGbTxesKltl/fbBbeLm0f"
+    "aAUWAjcPfQwU68jKec5AAeY4GUU8JRn+MfLc/X0A/OwN2DDlwBaRQnU/jg/E3w/UWef69sDv"
+    "+eM18+AcDDv1KUHycMNKxKzmIwSsBbz7hgYdJc407xmZ4TG+fs9BAhAlPyOiEXsPOR6sJLAF"
+    "l9YBwdXeSBgEOMkrNgwO+nkDfAUw7czKvsQL7U4lxj1CIdv0yt6O6Ybzxupw1iLcFQgAORtD"
+    "pxnI5ZHSseWH/jYCdPWt/eQfvEHqOmMICdTkxxPokg31FGkH7AZsG98uLhtW5U67eL8B77Aa"
+    "syHKDGH+MQjNEVkABNSGuJXO4wc/M6szXBA6+Gb7vAWo+sLdiNC0724nNkrJOcEIwebk6YL7"
+    "7/uD6WTlxgNTNNVEzCJG6rLIkdTL8qL+s/V/8hwLKy3KMBYFMc1AuH7UdwIAF3UNQQKXEpon"
+    "5CC19dTH4sIr7mUi1zRlIikLKwtaF+wOv+lIyQrQrwSdNrk9vRsm95zuffm79nLe6ctd3pYT"
+    "3Dy8NC0Ft9lV1CXpI/aH6u3hNPlRJpNDlyzv81rLKNLg82gMfAlSATUQjjCzO0AawOF0wUnU"
+    "/gRSIMsbkgojDCwdtR1c+lnI3rdh2CESzS0FIO4B8PfaAVYDYOeXxWXF+vKKLVlAJiIt+r/o"
+    "avUi/o7vCNy75fMT8ENxRyscFujy1//ryAAs/HPvXfoPIG4/YzGu+n7IjsLY4+wEqwhY/OL/"
+    "/hhwKg0Vjt4xt1PBCvMfHMUfpgygBOYT3R09BV3YoL9b2+sVjDt8NeEUaf+8BI8K8Pkl2RnP"
+    "0PFrKXZFey2R/Sji8uaG9FXwQdqw27b/djAgPmQYpOHtxivX0/NJ+1fxvPTvE+s37jdkCD3S"
+    "CMJO4twNsRstEO0KhRvCME0kHfPNxv3FAPJiIlgt4ximBWYKHBXgBcTbZrsJyuwAKzAFMlEQ"
+    "qPBe7un5+PME2E7IbuMDGyNCIjeZBmPiyOFK9zv9rO1D6ekDTDKhSkcu7vNjz9XY8PkxC1ID"
+    "VPwrDfouLDbYDNzUebnez/L9GBZGDjoA0Qc6G/QZ2vGfwre3o94JFl8vqR6gBTsCdw6tCjHr"
+    "zcrtzgACnDeOReck7P1J8Lb9VwG46/HWSuWXFqBBOj9ADgngVNOB5yX4du5K4irzpxwjOnEo"
+    "6fBAw6jDouhvBCwG0vpBBoAj+jN/GZvhqL3RznAAMyVYI0kRnA7UHRckjQUO1m/AiN51FTU4"
+    "/CtsCkr6QQGgBUbuLstTxP3t+SV5PKgiK/Th3tjonPW56gfWc9yLCNQ4AEOQGpzmM9Kx5Af/"
+    "HQO29Vb7IyESQlc6dQfv0W7IZ+jKDD4VOQgSB4wbCC9NG8zm0LoGv+ztAhtHIroLb/80CK8T"
+    "6f//01C5iM4CB+gzeDLwEJj2BfqhBbb6RdzWzkfwZigFShA6WgkI6NbqEvzg+kjp++S0BP8z"
+    "gkSaIvTohcgZ1MPxGv7m9JzxBQvXK9svtQWly0y3XtMwAuYVPgyTA1sRvCftIU/2UsefwiTu"
+    "DCOkMxYiRQvYC5cX9w7Z6fbH/9CxA981DT27GQb2Ku6y+F32Md6+yu3fsBPoOyk01QNJ2aTU"
+    "3ekl9UnrieLs+fwl4ELsKz/zkMtp0J30kg5RClsC9hBRLzI8axo44WDATtM+BVsi7xvUCaIL"
+    "ThyRHhf6YMhKtyra+BEMLgkglgFp948B1wNt6OXFTcRP8+ks6T9IJFP5Jurm9fH8o++624nl"
+    "ThT2RCFHiht+52DX7+ugAEb8QfCG+scfQD9RMef71cn5wrzjMgQjCJD8GP+BGl8qiRRj30G4"
+    "zsGu8yYeEiGmC8MFXRVfHEcG+NZXwWPaPhXsPNkzDRNj/7AD2gtt+WvZ283R8DMqr0aMLm/+"
+    "weG05p/01O8Z2wHadwCGMMc9vRev4E/HsNe486L7AfI59PMTSTbGNhAJhtL1wgrjoQsRG5UR"
+    "rwn+G9ExuCQf9JfFcsa58fwh1CwXGScFvAkfFaoFFttHu3rKXwEKL9oxKQ+p8MntPPpr9JnY"
+    "38ia48IbHkOpNYMHZ+EO4ff1Jfyr7g=="
+    R"("})";
+
+constexpr const char* kOverhangExample = R"({
+  "spindle": [{"axis": "x", "modes": [
+    {"frequency_Hz": 600, "damping_ratio": 0.04, "stiffness_N_mm": 40000, "pivot_mm": 150},
+    {"frequency_Hz": 1500, "damping_ratio": 0.03, "stiffness_N_mm": 60000,
+     "pivot_mm": -90}]}],
+  "holder": [{"length_mm": 60, "diameter_mm": 40, "E_MPa": 205000, "density_kg_m3": 7850,
+              "loss_factor": 0.01}],
+  "tool": [{"diameter_mm": 12, "E_MPa": 580000, "density_kg_m3": 14300},
+           {"length_mm": 26, "diameter_mm": 9.6, "E_MPa": 580000, "density_kg_m3": 14300}],
+  "overhangs_mm": [45, 60], "from_Hz": 200, "to_Hz": 4000,
+  "cut": {"model": "milling", "teeth": 2, "Kt_MPa": 600, "Kn_MPa": 200,
+          "radial_immersion": 0.1, "direction": "down", "ap_max_mm": 8,
+          "speeds_rpm": {"from": 8000, "to": 16000, "count": 5}}})";
+
 constexpr const char* kMultipassExample = R"({
   "dt_mm": 8, "cost": "literal", "PU": 4, "T": [25, 45], "n_max": 6})";
 
@@ -529,7 +585,21 @@ std::span<const Request> requests() {
          return document::stability(request, context.catalogue, context.stop,
                                     context.tell);
        },
-       nullptr, drawn_stability, stability_report},
+       report::stability_text, drawn_stability, stability_report},
+      {"overhang",
+       "spindle receptance, holder, tool, overhangs -> modes at the tip, limits of a cut",
+       kOverhangExample,
+       [](const json& request, const Context& context) -> ordered_json {
+         return document::overhang(request, context.catalogue, context.stop,
+                                   context.tell);
+       },
+       report::overhang_text},
+      {"listen", "sound of a cut (.wav) -> chatter frequency, speeds without it",
+       kListenExample,
+       [](const json& request, const Context& context) -> ordered_json {
+         return document::listen(request, context.catalogue, context.stop);
+       },
+       report::listen_text},
       {"multipass", "the literature's multi-pass problem -> certified optimum",
        kMultipassExample,
        [](const json& request, const Context&) -> ordered_json {

@@ -43,5 +43,16 @@ TEST_F(CommandLine, RefusesABinaryMeasurementByName) {
       2);
 }
 
+TEST_F(CommandLine, TakesASoundAsAFile) {
+  put(folder_ / "no.wav", "RIFF");
+  const auto run =
+      shell("turnwright listen - --wav no.wav <<'END'\n{\"n_rpm\": 6000}\nEND");
+  EXPECT_EQ(run.code, 2);
+  EXPECT_NE(run.err.find("byte 0: no RIFF header of WAVE"), std::string::npos) << run.err;
+  EXPECT_EQ(
+      shell("turnwright listen - --wav none.wav <<'END'\n{\"n_rpm\": 6000}\nEND").code,
+      2);
+}
+
 }  // namespace
 }  // namespace turnwright::app

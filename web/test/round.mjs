@@ -283,7 +283,7 @@ async function others() {
   const chart = page.getByRole('tab', { name: 'Stability', selected: true });
   while (!(await chart.count())) await page.keyboard.press('ArrowRight'); // by keyboard to the chart
   await page.getByRole('button', { name: 'Draw the chart' }).click();
-  await page.getByText('spectral radius').waitFor();
+  await page.getByText('it does not, margin').waitFor();
   await look(page, '14-stability');
   await page.getByRole('tab', { name: 'Ball bar' }).click();
   await look(page, '15-ball-bar-empty');

@@ -8,6 +8,7 @@
 
 #include "turnwright/chatter/cutter.hpp"
 #include "turnwright/chatter/cutter_limits.hpp"
+#include "turnwright/chatter/safe_cut.hpp"
 #include "turnwright/chatter/stability_limits.hpp"
 #include "turnwright/chatter/system.hpp"
 #include "turnwright/chatter/uncertain.hpp"
@@ -19,15 +20,6 @@ namespace turnwright::chatter {
 /// reference_methods.hpp.
 enum class Method { fundamental_matrix, tfea, semi_discretisation, simulation };
 
-struct OperatingPoint {
-  double n_rpm = 0, ap_mm = 0;
-};
-
-struct SpeedRange {
-  double from_rpm = 0, to_rpm = 0;
-  bool holds(double n_rpm) const { return n_rpm >= from_rpm && n_rpm <= to_rpm; }
-};
-
 struct ChartRequest {
   System system;
   std::optional<Cutter> cutter;  ///< helix, pitches, runout and damping, if any
@@ -37,12 +29,17 @@ struct ChartRequest {
   std::vector<double> speeds_rpm;
   std::vector<double> depths_mm;  ///< at which multipliers are counted for each speed
   std::optional<Bands> bands;
-  std::optional<SpeedRange> machine;  ///< speeds of the machine; absent: all
+  std::optional<SpeedRange> machine;   ///< speeds of the machine; absent: all
+  Margins margins;                     ///< that `best` and a point's cure keep
+  std::optional<SpindleLoad> spindle;  ///< of milling, if the machine's limits are known
   std::vector<OperatingPoint> points;
   double work = kSearchWork;  ///< operations for a speed of a cutter beyond the plain one
 
   /// Whether depth and delay enter by more than one number kappa, see cutter.hpp.
   bool shaped() const;
+  /// Whether limits at speeds beside those of the chart are found soon: of turning, and of
+  /// plain cutters with up to six modes, by limits.hpp.
+  bool quick() const;
 };
 
 /// Result for one speed.
@@ -59,6 +56,8 @@ struct ChartPoint {
   double spectral_radius = 0;
   bool stable = false;
   std::vector<Surface> walls;  ///< for a stable cut by a cutter with a feed
+  /// With ap_max, where quick() or at a speed of the chart; see PointMargin.
+  std::optional<PointMargin> margin;
 };
 
 /// A speed or point outside the method's range.
@@ -74,10 +73,9 @@ struct StabilityChart {
   std::vector<ChartSpeed> speeds;  ///< the decided ones, in the order of the request
   std::vector<ChartPoint> points;
   std::vector<Undecided> undecided_speeds, undecided_points;
-  /// The machine's speed of the highest rate of material removal and its depth: n times
-  /// the depth up to the first loss is greatest.  None if the machine reaches no speed.
-  std::optional<OperatingPoint> best;
-  bool best_is_limited_by_chatter = false;  ///< false: by ap_max
+  /// The cut of the highest rate of material removal, n ap, that keeps the margins and the
+  /// limits of the machine at a speed of the chart.  None if it has none of the speeds.
+  std::optional<SafeCut> best;
   std::vector<OperatingPoint>
       magic;  ///< local maxima of the limit over the speed, rising
 };

@@ -3,13 +3,9 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <utility>
 #include <vector>
 
 #include "chatter/fundamental_matrix/collocation_grid.hpp"
-#include "chatter/model/eigenvalues.hpp"
-#include "turnwright/base/cancelled.hpp"
 #include "turnwright/base/errors.hpp"
 
 namespace turnwright::chatter {
@@ -20,7 +16,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr std::size_t kLargest = 60000;  // entries of the map's vectors
-constexpr Index kDense = 150;            // up to here all eigenvalues are computed
 
 /// The map from one period to the next, on vectors of the state at the end of a period
 /// and of q at the nodes of each stretch, axis by axis.
@@ -113,66 +108,11 @@ class Map {
   std::vector<Step> steps_;
 };
 
-Spectrum of_all(const Map& map) {
-  MatrixXd dense(map.size(), map.size());
-  for (Index i = 0; i < map.size(); ++i)
-    dense.col(i) = map(VectorXd::Unit(map.size(), i));
-  const Dominant all = dominant(dense);
-  return {.radius = std::abs(all.multiplier), .outside = *all.unstable};
-}
-
-/// The spectrum of the Ritz values of `h`, and its error: the largest error of the values
-/// outside the unit circle and of the largest one, relative to the largest modulus.  The
-/// error of a value is |next| times the last entry of its unit eigenvector.
-std::pair<Spectrum, double> of_ritz(const MatrixXd& h, double next) {
-  const Eigenpairs ritz = eigenpairs(h);
-  const Eigen::ArrayXd moduli = ritz.values.cwiseAbs();
-  const Spectrum out{.radius = moduli.maxCoeff(),
-                     .outside = static_cast<int>((moduli > 1).count())};
-  double moves = 0;
-  for (Index i = 0; i < moduli.size(); ++i)
-    if (moduli(i) > 1 || moduli(i) == out.radius)
-      moves = std::max(moves, next * std::abs(ritz.vectors(h.rows() - 1, i)));
-  return {out, moves / out.radius};
-}
-
-/// The spectrum by Arnoldi's method, which starts from the same vector every time.
-Spectrum by_arnoldi(const Map& map) {
-  constexpr double kSettled = 1e-11, kAccepted = 1e-6, kMemory = 2e7;
-  const Index most = std::min<Index>(
-      {map.size(), 500, static_cast<Index>(kMemory / static_cast<double>(map.size()))});
-  MatrixXd basis(map.size(), most + 1), h = MatrixXd::Zero(most + 1, most);
-  for (Index i = 0; i < map.size(); ++i)
-    basis(i, 0) = 1 + 0.5 * std::cos(7 * std::pow(static_cast<double>(i), 2));
-  basis.col(0).normalize();
-  Index look = 30;  // size of the basis at which convergence is tested
-  for (Index k = 0; k < most; ++k) {
-    leave_if_asked();
-    VectorXd next = map(basis.col(k));
-    for (int twice = 0; twice < 2; ++twice) {
-      const VectorXd part = basis.leftCols(k + 1).transpose() * next;
-      next -= basis.leftCols(k + 1) * part;
-      h.col(k).head(k + 1) += part;
-    }
-    h(k + 1, k) = next.norm();
-    const bool last = k + 1 == most || !(h(k + 1, k) > 1e-14 * h.col(k).norm());
-    if (!last) basis.col(k + 1) = next / h(k + 1, k);
-    if (!last && k + 1 < look) continue;
-    look += look / 2;
-    const auto [found, moves] = of_ritz(h.topLeftCorner(k + 1, k + 1), h(k + 1, k));
-    if (moves < kSettled || (last && moves < kAccepted)) return found;
-    if (last) break;
-  }
-  throw ModelRangeError(
-      "milling: the largest multiplier cannot be told from others as large; ask for a "
-      "higher speed");
-}
-
 }  // namespace
 
 Spectrum spectrum(const System& system, double n_rpm, double ap_mm) {
   const Map map(system, n_rpm, ap_mm);
-  return map.size() <= kDense ? of_all(map) : by_arnoldi(map);
+  return spectrum_of(map.size(), [&](const VectorXd& before) { return map(before); });
 }
 
 }  // namespace turnwright::chatter

@@ -1,19 +1,12 @@
 #pragma once
+#include "chatter/model/map_spectrum.hpp"
 #include "turnwright/chatter/system.hpp"
 
 namespace turnwright::chatter {
 
-/// Multipliers of one cut by collocation.
-struct Spectrum {
-  double radius = 0;  ///< the largest modulus
-  int outside = 0;    ///< number of multipliers with a modulus above 1
-};
-
 /// The largest multipliers, by collocation of the delayed motion on the nodes of
 /// collocation_grid.hpp.  The displacements at the nodes of one period and the state at
-/// its end are mapped to those of the next period.  Arnoldi's method finds the largest
-/// eigenvalue of that map and all eigenvalues outside the unit circle; for a small map
-/// all eigenvalues are computed.
+/// its end are mapped to those of the next period.  spectrum_of() finds its eigenvalues.
 ///
 /// On a collocation interval, with the Volterra matrix K of (2) of collocation_grid.hpp,
 /// H of the directional factors and the displacements d of the period before,

@@ -10,6 +10,7 @@
 #include <unsupported/Eigen/FFT>
 #include <utility>
 
+#include "median.hpp"
 #include "turnwright/base/cancelled.hpp"
 #include "turnwright/base/units.hpp"
 
@@ -22,12 +23,6 @@ using Fault = Tap::Fault;
 constexpr double kPulse = 0.05, kNoise = 8;  // of the highest pulse; deviations
 constexpr std::size_t kLeastMargin = 4;      // samples
 constexpr std::size_t kMostLines = 2000;
-
-double median(std::vector<double> x) {
-  const auto middle = x.begin() + static_cast<std::ptrdiff_t>(x.size() / 2);
-  std::nth_element(x.begin(), middle, x.end());
-  return *middle;
-}
 
 /// The force less its median, the highest pulses of all records positive.
 struct Force {

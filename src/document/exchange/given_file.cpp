@@ -43,6 +43,20 @@ GivenFile read_given_file(Reader& r, const std::string& what, std::size_t most_b
   return {text ? as_given : decoded(at, what), at.pointer()};
 }
 
+std::string read_base64(const Reader& at, const std::string& what,
+                        std::size_t most_bytes) {
+  return at.as_text(most_bytes).empty() ? "" : decoded(at, what);
+}
+
+std::string base64_of(const std::string& bytes) {
+  std::string out(4 * ((bytes.size() + 2) / 3) + 1, '\0');
+  const int length = EVP_EncodeBlock(reinterpret_cast<unsigned char*>(out.data()),
+                                     reinterpret_cast<const unsigned char*>(bytes.data()),
+                                     static_cast<int>(bytes.size()));
+  out.resize(static_cast<std::size_t>(length));
+  return out;
+}
+
 void rethrow_at(const InputError& error, const std::string& document,
                 const std::string& pointer) {
   Problems problems{.document = document};

@@ -1,7 +1,5 @@
 #include "turnwright/document/import.hpp"
 
-#include <openssl/evp.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -309,12 +307,7 @@ json import_request(std::string bytes) {
     return {{"text", std::move(text)}};
   } catch (const json::type_error&) {  // not UTF-8
     const auto& raw = text.get_ref<const std::string&>();
-    std::string encoded((raw.size() + 2) / 3 * 4 + 1, '\0');
-    const int length = EVP_EncodeBlock(reinterpret_cast<unsigned char*>(encoded.data()),
-                                       reinterpret_cast<const unsigned char*>(raw.data()),
-                                       static_cast<int>(raw.size()));
-    encoded.resize(static_cast<std::size_t>(length));
-    return {{"base64", std::move(encoded)}};
+    return {{"base64", base64_of(raw)}};
   }
 }
 

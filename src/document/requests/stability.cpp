@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "stability_request.hpp"
+#include "turnwright/base/cancelled.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/base/units.hpp"
 #include "turnwright/chatter/chart.hpp"
@@ -30,12 +32,36 @@ ordered_json described(const std::vector<Surface>& walls) {
   return out;
 }
 
+ordered_json or_null(const std::optional<double>& value) {
+  return value ? ordered_json(*value) : ordered_json();
+}
+
+/// A depth less than a limit, if there is one, by so much.
+ordered_json margin_to(const std::optional<double>& limit_mm, double ap_mm) {
+  return limit_mm ? ordered_json(*limit_mm - ap_mm) : ordered_json();
+}
+
+void add_margin(const ChartPoint& point, bool speeds, ordered_json& out) {
+  const auto& [limit_mm, chatter_Hz, cure] = *point.margin;
+  out["limit_mm"] = or_null(limit_mm);
+  out["margin_mm"] = margin_to(limit_mm, point.at.ap_mm);
+  if (point.stable) return;
+  out["chatter_Hz"] = or_null(chatter_Hz);
+  if (!speeds) return;
+  out["cure"] = ordered_json();
+  if (cure)
+    out["cure"] = {{"n_rpm", cure->n_rpm},
+                   {"limit_mm", or_null(cure->limit_mm)},
+                   {"margin_mm", margin_to(cure->limit_mm, point.at.ap_mm)}};
+}
+
 ordered_json described(const Request& q, const ChartPoint& point) {
   ordered_json out{{"n_rpm", point.at.n_rpm}, {"ap_mm", point.at.ap_mm}};
   out["unstable_multipliers"] =
       point.unstable ? ordered_json(*point.unstable) : ordered_json();
   out["spectral_radius"] = point.spectral_radius;
   out["stable"] = point.stable;
+  if (point.margin) add_margin(point, !q.speeds_rpm.empty(), out);
   if (q.method == Method::fundamental_matrix && q.cutter && q.cutter->feed_mm > 0 &&
       point.at.ap_mm > 0)
     out["walls"] = point.stable ? described(point.walls) : ordered_json();
@@ -71,10 +97,6 @@ void add_undecided(const Request& q, const StabilityChart& chart, ordered_json& 
                           " 1/min: " + first.at("why").get<std::string>());
   }
   out["undecided"] = std::move(all);
-}
-
-ordered_json or_null(const std::optional<double>& value) {
-  return value ? ordered_json(*value) : ordered_json();
 }
 
 ordered_json described(const SpeedLimits& speed) {
@@ -124,20 +146,69 @@ ordered_json described(const OperatingPoint& point) {
   return {{"n_rpm", point.n_rpm}, {"ap_mm", point.ap_mm}};
 }
 
-void add_speeds(const Request& q, const StabilityChart& chart, ordered_json& out) {
+const char* name_of(DepthEnd end) {
+  switch (end) {
+    case DepthEnd::chatter:
+      return "chatter";
+    case DepthEnd::ap_max:
+      return "ap_max_mm";
+    case DepthEnd::power:
+      return "machine_power_kW";
+    case DepthEnd::torque:
+      return "machine_torque_Nm";
+  }
+  throw std::domain_error("stability: unknown end of a depth");
+}
+
+ordered_json described(const Request& q, const SafeCut& best) {
+  ordered_json out = described(best.at);
+  out["limited_by"] = name_of(best.limited_by);
+  out["limit_mm"] = or_null(best.limit_mm);
+  out["margin_mm"] = margin_to(best.limit_mm, best.at.ap_mm);
+  if (best.stable)
+    out["stable_rpm"] = {{"from", best.stable->from_rpm}, {"to", best.stable->to_rpm}};
+  if (best.chatter_Hz) out["chatter_Hz"] = *best.chatter_Hz;
+  out["speeds_judged"] = best.speeds_judged;
+  if (!q.removed_mm2) return out;
+  constexpr double cm3_per_mm3 = 1e-3;
+  out["removed_cm3_min"] = cm3_per_mm3 * *q.removed_mm2 * best.at.n_rpm * best.at.ap_mm;
+  out["power_kW"] = q.spindle->power_at_kW(best.at);
+  out["torque_Nm"] = q.spindle->torque_Nm_mm * best.at.ap_mm;
+  return out;
+}
+
+/// The limits with each variation of the speed, beside the one without.
+ordered_json varied(const Request& q, const SpeedLimits& constant,
+                    const std::stop_token& stop) {
+  ordered_json out = ordered_json::array();
+  for (const SpeedVariation& v : q.variations) {
+    leave_if(stop);
+    ordered_json told{{"rva", v.rva}, {"rvf", v.rvf}};
+    try {
+      const VariedLimit limit = varied_limit(q.system, constant.n_rpm, v, *q.ap_max_mm);
+      told["limit_mm"] = or_null(limit.limit_mm);
+      told["relative_error"] =
+          limit.limit_mm ? ordered_json(limit.relative_error) : ordered_json();
+    } catch (const ModelRangeError& e) {
+      told["why"] = e.what();
+    }
+    out.push_back(std::move(told));
+  }
+  return out;
+}
+
+void add_speeds(const Request& q, const StabilityChart& chart,
+                const std::stop_token& stop, ordered_json& out) {
   if (chart.speeds.empty()) return;
   for (const ChartSpeed& speed : chart.speeds) {
     ordered_json told = described(speed.limits);
     if (speed.uncertain) told["uncertain"] = described(*speed.uncertain);
+    if (!q.variations.empty()) told["varied"] = varied(q, speed.limits, stop);
     out["speeds"].push_back(std::move(told));
   }
   if (!q.depths_mm.empty()) out["depths_mm"] = q.depths_mm;
   out["best"] = ordered_json();
-  if (chart.best) {
-    out["best"] = described(*chart.best);
-    out["best"]["limited_by"] =
-        chart.best_is_limited_by_chatter ? "chatter" : "ap_max_mm";
-  }
+  if (chart.best) out["best"] = described(q, *chart.best);
   out["magic_speeds"] = ordered_json::array();
   for (const OperatingPoint& point : chart.magic)
     out["magic_speeds"].push_back(described(point));
@@ -151,7 +222,7 @@ ordered_json stability(const json& request, const Catalogue& catalogue,
   ordered_json out{{"format", "turnwright-stability-result/1"}};
   const StabilityChart chart = stability_chart(q, stop, tell);
   add_basis(q, out);
-  add_speeds(q, chart, out);
+  add_speeds(q, chart, stop, out);
   for (const ChartPoint& point : chart.points)
     out["points"].push_back(described(q, point));
   add_undecided(q, chart, out);

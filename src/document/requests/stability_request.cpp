@@ -5,10 +5,13 @@
 #include <cmath>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "document/catalogue/entries.hpp"
 #include "document/json/fields.hpp"
+#include "mode_reader.hpp"
 #include "reference_work.hpp"
 #include "turnwright/base/units.hpp"
 #include "turnwright/cutting/fixed.hpp"
@@ -24,37 +27,11 @@ constexpr std::size_t kModes = 20, kSpeeds = 10000, kPoints = 10000, kChecked = 
 constexpr std::size_t kCounted = 1000, kCuts = 1'000'000;   // depths of a speed, cuts
 constexpr std::size_t kDrawn = 10000, kSearches = 100'000;  // samples, times speeds
 constexpr double kSlenderDamping = 0.03;
+constexpr std::size_t kVariations = 20, kVaried = 200;  // of a list, of all
 constexpr std::size_t kShapedSpeeds = 500;  // of cutters beyond straight and even edges
 const Bounds kSpeed = within(1, 1e6, "1/min"), kDepth = above_up_to(0, 1000, "mm"),
-             kPointDepth = within(0, 1000, "mm"), kModeFrequency = within(0.1, 1e6, "Hz"),
-             kDamping = within(1e-6, 10), kMass = within(1e-9, 1e9, "kg"),
-             kStiffness = within(1e-6, 1e12, "N/mm"),
-             kPressure = within(1e-3, 1e6, "MPa"), kFeed = above_up_to(0, 10, "mm");
-
-double stiffness_N_mm(double mass_kg, double wn_rad_s) {
-  return mass_kg * wn_rad_s * wn_rad_s / 1000;  // N/m to N/mm
-}
-
-/// Stiffness, given directly or by a mass.
-double read_stiffness(Reader& r, double wn_rad_s) {
-  const auto mass = r.optional_number("mass_kg", kMass);
-  const auto stiffness = r.optional_number("stiffness_N_mm", kStiffness);
-  if (mass && stiffness)
-    r.problem_at("mass_kg", "either mass_kg or stiffness_N_mm", "exclusive");
-  else if (!mass && !stiffness)
-    r.problem_at("stiffness_N_mm", "stiffness_N_mm or mass_kg", "missing");
-  return mass ? stiffness_N_mm(*mass, wn_rad_s) : stiffness.value_or(1);
-}
-
-Mode read_mode(Reader r, Axis axis, std::optional<double> damping) {
-  Mode mode{.axis = axis};
-  mode.wn_rad_s = 2 * units::kPi * r.number("frequency_Hz", kModeFrequency);
-  mode.zeta = damping ? r.number_or("damping_ratio", kDamping, *damping)
-                      : r.number("damping_ratio", kDamping);
-  mode.k_N_mm = read_stiffness(r, mode.wn_rad_s);
-  r.finish();
-  return mode;
-}
+             kPointDepth = within(0, 1000, "mm"), kPressure = within(1e-3, 1e6, "MPa"),
+             kFeed = above_up_to(0, 10, "mm");
 
 enum class Direction { down, up, slot };
 
@@ -178,8 +155,8 @@ void read_power_law(Reader& r, Request& q) {
   q.system.exit_rad = units::kPi;
   Mode mode;
   mode.wn_rad_s = r.number("natural_frequency_rad_s", within(1, 1e7, "rad/s"));
-  mode.zeta = r.number("damping_ratio", kDamping);
-  mode.k_N_mm = stiffness_N_mm(r.number("mass_kg", kMass), mode.wn_rad_s);
+  mode.zeta = r.number("damping_ratio", kModeDamping);
+  mode.k_N_mm = stiffness_N_mm(r.number("mass_kg", kModeMass), mode.wn_rad_s);
   q.system.modes = {mode};
   PowerLawForce force;
   force.C = r.number("C", within(1, 1e15, "N m^-(1 + gamma)"));
@@ -264,6 +241,28 @@ void read_cutter(Reader& r, const Named& named, Request& q) {
   q.cutter = std::move(cutter);
 }
 
+/// "speed_variation": every amplitude with every frequency.
+void read_variations(Reader& r, Request& q) {
+  auto found = r.find("speed_variation");
+  if (!found) return;
+  Reader v = found->as_object();
+  const auto amplitudes = v.numbers("rva", within(0, 0.9), 1, kVariations);
+  const auto frequencies = v.numbers("rvf", within(0.01, 1), 1, kVariations);
+  v.finish();
+  for (const double rva : amplitudes)
+    for (const double rvf : frequencies) q.variations.push_back({rva, rvf});
+  for (const char* key : {"process_damping", "uncertainty", "method"})
+    if (r.has(key)) r.problem_at(key, "no such key with speed_variation", "exclusive");
+  if (q.variations.size() * q.speeds_rpm.size() > kVaried)
+    r.problem_at("speed_variation",
+                 "at most " + std::to_string(kVaried) +
+                     " amplitudes times frequencies times speeds",
+                 "range");
+  for (const Mode& m : q.system.modes)
+    if (m.zeta >= 0.7)
+      r.problem_at("speed_variation", "damping ratios below 0.7", "range");
+}
+
 SpeedRange read_range(Reader& r) {
   const SpeedRange range{r.number("from", kSpeed), r.number("to", kSpeed)};
   if (range.from_rpm > range.to_rpm)
@@ -336,6 +335,50 @@ void read_machine(Reader& r, Request& q) {
     r.problem_at("machine_rpm", "a range that holds one of speeds_rpm", "range");
 }
 
+/// "stability_margin" and "speed_margin", which the best cut keeps.
+void read_margins(Reader& r, Request& q) {
+  const auto share = [&](const char* key, const Bounds& bounds, double usual,
+                         const char* why) {
+    if (!q.speeds_rpm.empty() && !r.has(key))
+      q.assumed.push_back(
+          {{"pointer", std::string("/") + key}, {"value", usual}, {"why", why}});
+    return r.number_or(key, bounds, usual);
+  };
+  const Margins usual;
+  q.margins.depth = share("stability_margin", within(0, 10), usual.depth,
+                          "the best cut stays stable when it is deeper by this share");
+  q.margins.speed =
+      share("speed_margin", within(0, 0.2), usual.speed,
+            "and at all speeds slower or faster by this share, or with all natural "
+            "frequencies higher or lower by it");
+}
+
+/// What milling removes in a revolution per depth, if feed and diameter are known, and the
+/// machine's power and torque, which limit the best cut.
+void read_spindle(Reader& r, const Named& named, Request& q) {
+  SpindleLoad load;
+  load.power_kW = r.optional_number("machine_power_kW", above_up_to(0, 1000, "kW"));
+  load.torque_Nm = r.optional_number("machine_torque_Nm", above_up_to(0, 1e5, "Nm"));
+  const double fz = q.cutter ? q.cutter->feed_mm : 0;
+  const double diameter = q.cutter ? q.cutter->diameter_mm : 0;
+  if (load.power_kW || load.torque_Nm) {
+    if (!r.has("feed_mm"))
+      r.problem_at("feed_mm", "a feed per tooth, for the machine's power and torque",
+                   "missing");
+    if (!r.has("diameter_mm") && !named && !r.has("cutter"))
+      r.problem_at("diameter_mm", "a diameter, for the machine's power and torque",
+                   "missing");
+  }
+  if (!(fz > 0 && diameter > 0)) return;
+  const double ae =
+      diameter * (std::cos(q.system.entry_rad) - std::cos(q.system.exit_rad)) / 2;
+  q.removed_mm2 = q.system.teeth * fz * ae;
+  constexpr double m_per_mm = 1e-3;
+  load.torque_Nm_mm = m_per_mm * std::get<LinearForce>(q.system.force).Kt_MPa *
+                      *q.removed_mm2 / (2 * units::kPi);
+  q.spindle = load;
+}
+
 /// "method" with its own key.
 void read_method(Reader& r, Request& q) {
   q.method = r.choice_or<Method>("method",
@@ -361,6 +404,17 @@ void refuse_beside_shape(Reader& r, const Request& q) {
                  "range");
 }
 
+void refuse_without_speeds(Reader& r, const Request& q) {
+  std::vector<std::string_view> keys{"depths", "uncertainty", "machine_rpm",
+                                     "stability_margin", "speed_margin"};
+  if (q.model == Model::milling)
+    keys.insert(keys.end(), {"machine_power_kW", "machine_torque_Nm"});
+  if (q.model == Model::turning) keys.push_back("speed_variation");
+  for (const std::string_view key : keys)
+    if (!r.broken() && r.has(key) && !r.has("speeds_rpm"))
+      r.problem_at(key, "no such key without speeds_rpm", "exclusive");
+}
+
 Request read_request(const json& request, const Catalogue& catalogue,
                      Problems& problems) {
   Request q;
@@ -378,6 +432,7 @@ Request read_request(const json& request, const Catalogue& catalogue,
     if (q.model == Model::power_law) read_power_law(r, q);
     if (q.model == Model::turning) read_turning(r, q);
     if (q.model != Model::power_law) read_cutter(r, named, q);
+    if (q.model == Model::milling) read_spindle(r, named, q);
   }
   read_method(r, q);
   read_speeds(r, q);
@@ -385,6 +440,8 @@ Request read_request(const json& request, const Catalogue& catalogue,
   read_depths(r, q);
   read_uncertainty(r, q);
   read_machine(r, q);
+  read_margins(r, q);
+  if (q.model == Model::turning && known) read_variations(r, q);
   for (Reader& point : r.optional_items("points", 1, kPoints)) {
     point = point.as_object();
     chatter::OperatingPoint p;
@@ -406,9 +463,7 @@ Request read_request(const json& request, const Catalogue& catalogue,
     r.problem_at("speeds_rpm", "speeds_rpm or points", "missing");
   if (!r.broken() && r.has("speeds_rpm") && !r.has("ap_max_mm"))
     r.problem_at("ap_max_mm", expected_number(kDepth) + " to search up to", "missing");
-  for (const std::string_view key : {"depths", "uncertainty", "machine_rpm"})
-    if (!r.broken() && r.has(key) && !r.has("speeds_rpm"))
-      r.problem_at(key, "no such key without speeds_rpm", "exclusive");
+  refuse_without_speeds(r, q);
   if (known) r.finish();
   return q;
 }

@@ -6,6 +6,7 @@
 
 #include "frequency_response.hpp"
 #include "turnwright/chatter/chart.hpp"
+#include "turnwright/chatter/speed_variation.hpp"
 #include "turnwright/document/catalogue.hpp"
 
 /// The request of the capability `stability`.
@@ -24,7 +25,9 @@ struct Request : chatter::ChartRequest {
   std::vector<MeasuredAxis> measured;  // whose modes `system` holds
   bool modes_of_cutter = false;        // those of its document
   std::optional<Chip> chip;
-  bool speeds_listed = false;  // one by one, not as a range
+  std::optional<double> removed_mm2;  // per revolution and depth: teeth fz ae, if known
+  std::vector<chatter::SpeedVariation> variations;  // of turning
+  bool speeds_listed = false;                       // one by one, not as a range
   nlohmann::ordered_json assumed = nlohmann::ordered_json::array();
 
   std::string pointer_of_speed(std::size_t i) const {

@@ -4,6 +4,7 @@
 
 #include "html_parts.hpp"
 #include "report/text/json_fields.hpp"
+#include "report/text/stability_words.hpp"
 
 namespace turnwright::report {
 namespace {
@@ -17,11 +18,9 @@ std::string chart_header(const ordered_json& result) {
   if (const auto& best = object(result, "best"); !best.empty()) {
     out += "<dl>\n";
     out += key_figure("Best speed", shown(number(best, "n_rpm"), 0), "1/min");
-    out += key_figure("Depth there", significant(number(best, "ap_mm")),
-                      word(best, "limited_by") == "chatter"
-                          ? "mm, where chatter begins"
-                          : "mm, the largest depth requested");
-    out += "</dl>\n";
+    out += key_figure("Depth there", significant(number(best, "ap_mm"), 3),
+                      "mm, with the margins");
+    out += "</dl>\n" + tag("p", best_words(best));
   }
   return out + origin(result);
 }
@@ -83,14 +82,6 @@ std::string warnings(const ordered_json& result) {
   return out.empty() ? out : tag("h2", "Warnings") + out;
 }
 
-std::string crossings(const ordered_json& speed) {
-  std::vector<std::string> all;
-  for (const auto& c : list(speed, "crossings"))
-    all.push_back(word(c, "sense") + " " + significant(number(c, "ap_mm"), 5) + " (" +
-                  word(c, "kind") + ", " + shown(number(c, "frequency_Hz"), 0) + " Hz)");
-  return all.empty() ? "none" : joined(all);
-}
-
 std::string speeds(const ordered_json& result) {
   const auto& all = list(result, "speeds");
   if (all.empty()) return "";
@@ -99,17 +90,14 @@ std::string speeds(const ordered_json& result) {
   for (std::size_t i = 0; i < all.size(); i += step)
     rows += "<tr>" + number_cell(shown(number(all[i], "n_rpm"), 0)) +
             number_cell(significant(number(all[i], "limit_mm"), 5)) +
-            words_cell(crossings(all[i])) + "</tr>\n";
+            words_cell(limit_words(all[i])) + "</tr>\n";
   std::string out = tag("h2", "Limits");
   if (step > 1)
     out += fmt::format(
         "<p class=\"from\">One in {} of {} speeds; all are in the result "
         "document.</p>\n",
         step, all.size());
-  return out +
-         table_head({{"speed", "1/min"},
-                     {"stable to", "mm"},
-                     {"where it turns, depths in mm", "", false}}) +
+  return out + table_head({{"speed", "1/min"}, {"stable to", "mm"}, {"", "", false}}) +
          rows + kTableFoot;
 }
 
@@ -120,18 +108,11 @@ std::string points(const ordered_json& result) {
   for (std::size_t i = 0; i < all.size() && i < kMost; ++i)
     rows += "<tr>" + number_cell(shown(number(all[i], "n_rpm"), 0)) +
             number_cell(significant(number(all[i], "ap_mm"))) +
-            words_cell(flag(all[i], "stable") ? "stable" : "unstable") +
-            number_cell(shown(number(all[i], "unstable_multipliers"), 0)) +
-            number_cell(shown(number(all[i], "spectral_radius"), 4)) + "</tr>\n";
+            words_cell(verdict_words(all[i])) + "</tr>\n";
   std::string out = tag("h2", "Requested cuts");
   if (all.size() > kMost)
     out += fmt::format("<p class=\"from\">The first {} of {}.</p>\n", kMost, all.size());
-  return out +
-         table_head({{"speed", "1/min"},
-                     {"depth", "mm"},
-                     {"verdict", "", false},
-                     {"unstable multipliers", ""},
-                     {"spectral radius", ""}}) +
+  return out + table_head({{"speed", "1/min"}, {"depth", "mm"}, {"verdict", "", false}}) +
          rows + kTableFoot;
 }
 

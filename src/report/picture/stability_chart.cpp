@@ -75,8 +75,8 @@ class Chart {
     }
   }
 
-  /// The line of a depth of every speed, broken where one is undecided; null is the
-  /// deepest.
+  /// The line of a depth of every speed, broken where one is undecided or an island ends;
+  /// null is the deepest.
   template <class F>
   void limit_line(const std::string& css_class, F depth_of) {
     std::vector<Point> line;
@@ -84,11 +84,11 @@ class Chart {
       if (line.size() > 1) svg_.polyline(css_class, line);
       line.clear();
     };
+    const Column* before = nullptr;
     for (const Column& c : columns_) {
-      if (!c.speed) {
-        draw();
-        continue;
-      }
+      if (!c.speed || (before && island_ends(*before, c))) draw();
+      before = c.speed ? &c : nullptr;
+      if (!before) continue;
       const ordered_json depth = depth_of(*c.speed);
       line.push_back(place(c.n_rpm, depth.is_null() ? deepest_ : depth.get<double>()));
     }
@@ -116,10 +116,10 @@ class Chart {
                  depth = result_.at("best").at("ap_mm");
     const Point at = place(n, depth);
     diamond("best", at);
-    const bool left = at.x > (kLeft + kRight) / 2;
-    svg_.text({at.x + (left ? -2 : 2), std::max(at.y - 1.5, kTop + 4)},
-              left ? Anchor::end : Anchor::start,
-              "best: " + plain(n, 0) + "/min, " + plain(depth) + " mm", "path");
+    diamond("best", {kLeft + kMark, kTop - 4});
+    svg_.text({kLeft + 3, kTop - 3}, Anchor::start,
+              "best with margins: " + plain(n, 0) + "/min, " + plain(depth, 2) + " mm",
+              "path");
     for (const auto& magic : result_.at("magic_speeds")) {
       const double x = place(magic.at("n_rpm"), 0).x;
       svg_.line("", {x, kTop - 2}, {x, kTop});
@@ -182,6 +182,20 @@ class Chart {
                              {at.x, at.y - kMark},
                              {at.x + kMark, at.y},
                              {at.x, at.y + kMark}});
+  }
+
+  double first_limit(const Column& c) const {
+    const auto& depth = c.speed->at("limit_mm");
+    return depth.is_null() ? deepest_ : depth.get<double>();
+  }
+
+  /// Whether the first limit jumps between neighbours, because the lower one belongs to an
+  /// island that the other has no more: it is stable again below the other's first limit.
+  bool island_ends(const Column& a, const Column& b) const {
+    const Column& lower = first_limit(a) < first_limit(b) ? a : b;
+    const double other = std::max(first_limit(a), first_limit(b));
+    const auto& crossings = lower.speed->at("crossings");
+    return crossings.size() > 1 && crossings[1].at("ap_mm").get<double>() < other;
   }
 
   void fill(const Column& c, double from_mm, double to_mm, int unstable) {

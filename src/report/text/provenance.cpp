@@ -1,7 +1,10 @@
 #include "provenance.hpp"
 
+#include <algorithm>
+
 #include "json_fields.hpp"
 #include "layout.hpp"
+#include "plan_words.hpp"
 
 namespace turnwright::report {
 
@@ -13,6 +16,20 @@ std::string made_by(const ordered_json& result) {
   if (version.empty() || digest.empty()) return "";
   return paragraph("made by ",
                    "turnwright " + version + " from request " + digest.substr(0, 12));
+}
+
+std::string assumption_lines(const ordered_json& result) {
+  constexpr std::size_t kWidth = kPageWidth - 2, kLeastValue = 16;
+  std::string out;
+  for (const auto& a : list(result, "assumed")) {
+    const auto found = a.find("value");
+    const auto value = found == a.end() ? "-" : value_text(*found);
+    const std::string lead = word(a, "pointer") + " = ", why = ": " + word(a, "why");
+    const auto taken = std::min(characters(lead + why), kWidth - kLeastValue);
+    out += "  " + clipped(lead + clipped(value, kWidth - taken) + why, kWidth) + '\n';
+  }
+  if (out.empty()) return "";
+  return "\nASSUMED  what the request left open\n" + out;
 }
 
 std::string warnings(const ordered_json& result) {

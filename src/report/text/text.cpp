@@ -242,21 +242,6 @@ std::string alternatives(const ordered_json& result) {
   return "\nALTERNATIVES  each combination, planned\n" + numbered(sentences_of(all));
 }
 
-// One line each: a long value gives way to the reason.
-std::string assumptions(const ordered_json& result) {
-  constexpr std::size_t kWidth = kPageWidth - 2, kLeastValue = 16;
-  std::string out;
-  for (const auto& a : list(result, "assumed")) {
-    const auto found = a.find("value");
-    const auto value = found == a.end() ? "-" : value_text(*found);
-    const std::string lead = word(a, "pointer") + " = ", why = ": " + word(a, "why");
-    const auto taken = std::min(characters(lead + why), kWidth - kLeastValue);
-    out += "  " + clipped(lead + clipped(value, kWidth - taken) + why, kWidth) + '\n';
-  }
-  if (out.empty()) return "";
-  return "\nASSUMED  what the request left open\n" + out;
-}
-
 }  // namespace
 
 std::string text(const ordered_json& plan_result) {
@@ -264,7 +249,7 @@ std::string text(const ordered_json& plan_result) {
          relaxations(plan_result) + remedies(plan_result) + setups(plan_result) +
          tolerances(plan_result) + budget(plan_result) + offsets(plan_result) +
          compensation(plan_result) + prices(plan_result) + what_if(plan_result) +
-         rules(plan_result) + alternatives(plan_result) + assumptions(plan_result);
+         rules(plan_result) + alternatives(plan_result) + assumption_lines(plan_result);
 }
 
 }  // namespace turnwright::report

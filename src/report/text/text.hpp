@@ -43,6 +43,19 @@ std::string material_text(const nlohmann::ordered_json& calibration_result);
 /// intervals and advice, what was left out and why.
 std::string learn_text(const nlohmann::ordered_json& learn_result);
 
+/// The result document of `stability` (schemas/stability.result.json): the best cut, each
+/// requested cut with its margin or its chatter and the nearest cure, limits of at most 24
+/// of the speeds, modes of measured responses, what is undecided.
+std::string stability_text(const nlohmann::ordered_json& stability_result);
+
+/// The result document of `overhang` (schemas/overhang.result.json): the least limit and the
+/// best cut with each overhang, requested cuts, the modes at the tip.
+std::string overhang_text(const nlohmann::ordered_json& overhang_result);
+
+/// The result document of `listen` (schemas/listen.result.json): whether the cut chatters, at
+/// which frequency, speeds without it, the lines of the sound.
+std::string listen_text(const nlohmann::ordered_json& listen_result);
+
 /// The result document of `review` (schemas/review.result.json): the cuts of each program
 /// with the limits that they do not keep, what is not known, sizes, and what a plan saves.
 std::string review_text(const nlohmann::ordered_json& review_result);

@@ -256,6 +256,137 @@ stability: /uncertainty/samples: got 11, expected at most 100000 samples over al
             "speeds_rpm");
 }
 
+// What a tooth removes in a revolution is fz ae per depth: with the specific force Kt that
+// is the mean power, P = Kt fz ae z n ap, and the mean torque P/(2 pi n).
+TEST(Stability, BestIsWithinThePowerAndTorqueOfTheMachine) {
+  json q = example(16);
+  q.erase("points");
+  const double ae = 0.1 * 16, fz = 0.1;
+  const auto power_kW = [&](const json& best) {
+    return 600 * fz * ae * 2 * best["n_rpm"].get<double>() * best["ap_mm"].get<double>() /
+           6e7;
+  };
+  json best = answered(q)["best"];
+  EXPECT_EQ(best["limited_by"], "chatter");
+  EXPECT_NEAR(best["power_kW"], power_kW(best), 1e-12);
+  EXPECT_NEAR(best["power_kW"],
+              best["torque_Nm"].get<double>() * best["n_rpm"].get<double>() / 9549.2966,
+              1e-8);
+  EXPECT_NEAR(best["removed_cm3_min"], power_kW(best) * 6e7 / 600 / 1000, 1e-9);
+  EXPECT_EQ(best["margin_mm"],
+            best["limit_mm"].get<double>() - best["ap_mm"].get<double>());
+  q["machine_power_kW"] = 0.05;
+  best = answered(q)["best"];
+  EXPECT_EQ(best["limited_by"], "machine_power_kW");
+  EXPECT_NEAR(power_kW(best), 0.05, 1e-12);
+  q["machine_torque_Nm"] = 0.01;
+  best = answered(q)["best"];
+  EXPECT_EQ(best["limited_by"], "machine_torque_Nm");
+  EXPECT_NEAR(best["torque_Nm"], 0.01, 1e-15);
+  q["direction"] = "slot";
+  q.erase("radial_immersion");
+  EXPECT_NEAR(answered(q)["best"]["ap_mm"], 0.1 * best["ap_mm"].get<double>(), 1e-12);
+  q.erase("feed_mm");
+  q.erase("diameter_mm");
+  EXPECT_EQ(refused(q),
+            "stability: /feed_mm: got nothing, expected a feed per tooth, for the "
+            "machine's power and torque\nstability: /diameter_mm: got nothing, expected "
+            "a diameter, for the machine's power and torque");
+  q = example(3);
+  q["machine_power_kW"] = 1;
+  EXPECT_EQ(refused(q), "stability: /machine_power_kW: got 1, expected no such key");
+}
+
+TEST(Stability, MarginsAreAssumedOrThoseOfTheRequest) {
+  json q = example(16);
+  q.erase("stability_margin");
+  q.erase("speed_margin");
+  const json r = answered(q);
+  EXPECT_EQ(r["assumed"][0]["pointer"], "/stability_margin");
+  EXPECT_EQ(r["assumed"][0]["value"], 0.2);
+  EXPECT_EQ(r["assumed"][1]["pointer"], "/speed_margin");
+  EXPECT_EQ(r["assumed"][1]["value"], 0.02);
+  EXPECT_GT(r["best"]["limit_mm"].get<double>(), 1.2 * r["best"]["ap_mm"].get<double>());
+  EXPECT_LT(r["best"]["stable_rpm"]["from"].get<double>(),
+            0.98 * r["best"]["n_rpm"].get<double>());
+  q["stability_margin"] = 0;
+  q["speed_margin"] = 0;
+  const json edge = answered(q);
+  EXPECT_EQ(edge["assumed"], json::array());
+  EXPECT_EQ(edge["best"]["margin_mm"], 0);
+  EXPECT_EQ(edge["best"]["speeds_judged"], 1);
+  q.erase("speeds_rpm");
+  q.erase("machine_rpm");
+  EXPECT_EQ(
+      refused(q),
+      "stability: /stability_margin: got 0, expected no such key without speeds_rpm\n"
+      "stability: /speed_margin: got 0, expected no such key without speeds_rpm\n"
+      "stability: /machine_power_kW: got 0.5, expected no such key without "
+      "speeds_rpm\nstability: /machine_torque_Nm: got 2, expected no such key "
+      "without speeds_rpm");
+}
+
+TEST(Stability, ACutThatChattersIsToldItsFrequencyAndItsCure) {
+  json q = example(16);
+  q["points"].push_back({{"n_rpm", 9200}, {"ap_mm", 1}});
+  const json points = answered(q)["points"];
+  EXPECT_EQ(points[0]["stable"], false);
+  // A flip: an odd multiple of half the tooth frequency, 10000 2/60/2 Hz.
+  EXPECT_NEAR(points[0]["chatter_Hz"], 5 * 10000.0 / 60, 1e-9);
+  EXPECT_NEAR(points[0]["margin_mm"].get<double>() + 3,
+              points[0]["limit_mm"].get<double>(), 1e-12);
+  const json& cure = points[0]["cure"];
+  EXPECT_GE(cure["limit_mm"].get<double>(), 1.1 * 3);
+  json at_cure = q;
+  at_cure["points"] = {{{"n_rpm", cure["n_rpm"]}, {"ap_mm", 3}}};
+  const json cured = answered(at_cure)["points"][0];
+  EXPECT_EQ(cured["stable"], true);
+  EXPECT_NEAR(cured["margin_mm"], cure["margin_mm"], 1e-9);
+  EXPECT_FALSE(cured.contains("cure"));
+  EXPECT_EQ(points[1]["stable"], true);
+  q["machine_rpm"] = {{"from", 9900}, {"to", 11500}};
+  EXPECT_TRUE(answered(q)["points"][0]["cure"].is_null());
+  q.erase("machine_rpm");
+  for (const char* key : {"machine_power_kW", "machine_torque_Nm", "speeds_rpm",
+                          "stability_margin", "speed_margin"})
+    q.erase(key);
+  EXPECT_FALSE(answered(q)["points"][0].contains("cure"));
+  EXPECT_TRUE(answered(q)["points"][0].contains("chatter_Hz"));
+  q.erase("ap_max_mm");
+  EXPECT_FALSE(answered(q)["points"][0].contains("limit_mm"));
+}
+
+TEST(Stability, LimitsWithASwingingSpeedStandBesideThoseWithout) {
+  json q = example(17);
+  const json speeds = answered(q)["speeds"];
+  for (const json& s : speeds) {
+    ASSERT_EQ(s["varied"].size(), 2u);
+    EXPECT_EQ(s["varied"][0]["rva"], 0.1);
+    EXPECT_EQ(s["varied"][1]["rva"], 0.3);
+  }
+  q["speed_variation"]["rva"] = {0};
+  q["ap_max_mm"] = 5;
+  for (const json& s : answered(q)["speeds"])
+    EXPECT_NEAR(s["varied"][0]["limit_mm"].get<double>() / s["limit_mm"].get<double>(), 1,
+                1e-7);
+  q["speeds_rpm"] = {1};
+  q["ap_max_mm"] = 0.05;
+  q["speed_variation"]["rva"] = {0.2};
+  EXPECT_TRUE(answered(q)["speeds"][0]["varied"][0]["limit_mm"].is_null());
+  q["ap_max_mm"] = 5;
+  EXPECT_TRUE(answered(q)["speeds"][0]["varied"][0].contains("why"));
+  q["speed_variation"] = {{"rva", {1}}, {"rvf", json::array()}};
+  q["process_damping"] = {{"C_N_mm", 100}};
+  q["diameter_mm"] = 60;
+  EXPECT_EQ(
+      refused(q),
+      "stability: /speed_variation/rva/0: got 1, expected a number from 0 to 0.9\n"
+      "stability: /speed_variation/rvf: got an empty list, expected a list of 1 to 20 "
+      "entries\n"
+      "stability: /process_damping: got an object, expected no such key with "
+      "speed_variation");
+}
+
 // A key whose value changes nothing changes no limit.
 TEST(Stability, EvenTeethAsPitchesAreThoseOfTheCutter) {
   json q = example(0);

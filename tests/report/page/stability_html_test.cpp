@@ -21,7 +21,8 @@ ordered_json result() {
     "speeds": [{"n_rpm": 6000, "limit_mm": 1.25, "crossings": [
         {"ap_mm": 1.25, "sense": "loss", "kind": "flip", "frequency_Hz": 900}]},
       {"n_rpm": 7000, "limit_mm": null, "crossings": []}],
-    "best": {"n_rpm": 7000, "ap_mm": 6, "limited_by": "ap_max_mm"}, "magic_speeds": [],
+    "best": {"n_rpm": 7000, "ap_mm": 5, "limited_by": "ap_max_mm", "limit_mm": null,
+             "margin_mm": null, "speeds_judged": 33}, "magic_speeds": [],
     "points": [{"n_rpm": 6000, "ap_mm": 2, "unstable_multipliers": 1,
                 "spectral_radius": 1.25, "stable": false}],
     "assumed": [{"pointer": "/a<b", "value": 1, "why": "default"}],
@@ -33,9 +34,9 @@ TEST(StabilityHtml, SaysTheNumbersOfTheDocument) {
       stability_html("part", result(), {{"stability.svg", "<svg>chart</svg>"}});
   EXPECT_EQ(page.rfind("<!doctype html>", 0), 0u);
   for (const char* what :
-       {"7000 <small>1/min", "the largest depth requested", "922.04 \u00b1 0.031",
+       {"7000 <small>1/min", "a larger ap_max_mm may allow more", "922.04 \u00b1 0.031",
         "9000.4 \u00b1 12", "31 lines from 700 to 1300 Hz", "99.991 %", "Kt 4512 MPa",
-        "loss 1.25 (flip, 900 Hz)", "none", "unstable</td>", "1.2500", "/a&lt;b",
+        "chatter at 900 Hz from 1.25 mm", "no chatter", "chatters</td>", "/a&lt;b",
         "data:image/svg+xml,%3Csvg%3Echart", "request 0123456789abcdef"})
     EXPECT_NE(page.find(what), std::string::npos) << what;
   EXPECT_EQ(page.find("<b"), page.find("<body"));  // nothing unescaped

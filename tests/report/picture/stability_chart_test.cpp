@@ -75,10 +75,36 @@ TEST(StabilityChart, MarksCrossingsByTheirKindAndTheFirstLimit) {
   EXPECT_NE(svg.find("<line class=\"hopf\" x1=\"20.000\" y1=\"87.200\" x2=\"60.500\" "
                      "y2=\"87.200\"/>"),
             std::string::npos);
+  // At 2000/min it is stable again below the limit at 3000/min: the island ends between.
+  EXPECT_NE(svg.find("<polyline points=\"20.000,87.200 101.000,70.400\"/>"),
+            std::string::npos);
+  EXPECT_EQ(svg.find("101.000,70.400 182.000,20.000"), std::string::npos);
+  EXPECT_NE(svg.find("best with margins: 3000/min, 5 mm"), std::string::npos);
+}
+
+TEST(StabilityChart, TheLineOfTheFirstLimitBreaksOnlyWhereAnIslandEnds) {
+  ordered_json r = chart_result();
+  r["speeds"][2]["crossings"].erase(1);  // unstable above 2 mm: one flank up to 3000/min
   EXPECT_NE(
-      svg.find("<polyline points=\"20.000,87.200 101.000,70.400 182.000,20.000\"/>"),
+      stability_chart(kRequest, r)
+          .find("<polyline points=\"20.000,87.200 101.000,70.400 182.000,20.000\"/>"),
       std::string::npos);
-  EXPECT_NE(svg.find("best: 3000/min, 5 mm"), std::string::npos);
+  r = chart_result();
+  r["speeds"][0]["limit_mm"] = 3;  // below where it is stable again at 2000/min
+  r["speeds"][0]["crossings"] = {
+      {{"ap_mm", 3}, {"sense", "loss"}, {"kind", "flip"}, {"frequency_Hz", 900}}};
+  EXPECT_NE(
+      stability_chart(kRequest, r)
+          .find("<polyline points=\"20.000,87.200 101.000,70.400 182.000,53.600\"/>"),
+      std::string::npos);
+}
+
+// Above the frame, where no lens is.
+TEST(StabilityChart, TheLabelOfTheBestCutStandsOutsideTheChart) {
+  EXPECT_NE(stability_chart(kRequest, chart_result())
+                .find("<text class=\"path\" x=\"23.000\" y=\"17.000\""),
+            std::string::npos)
+      << stability_chart(kRequest, chart_result());
 }
 
 TEST(StabilityChart, FoldsAreInTheKeyWhereThereAreAny) {
