@@ -1,20 +1,17 @@
 #include "turnwright/planning/choice.hpp"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <stdexcept>
-#include <stop_token>
 #include <string>
 
 #include "certified_plan.hpp"
 #include "completed_plan.hpp"
 #include "planning/values/readable.hpp"
-#include "turnwright/base/cancelled.hpp"
+#include "side_by_side.hpp"
 #include "what_if.hpp"
 
 namespace turnwright::planning {
@@ -107,25 +104,15 @@ void prefer_proven(const std::vector<Candidate>& candidates, Compared& all) {
   }
 }
 
-// Side by side: no plan depends on another, so the answer is the same for any number of
-// threads.
 Compared compare(const std::vector<Candidate>& candidates, const Judge& judge) {
   Compared all{std::vector<ProcessPlan>(candidates.size()),
                std::vector<ProcessPlan>(candidates.size()),
                std::vector<std::string>(candidates.size())};
-  const auto* const heard = Listening::heard();
-  const std::stop_token stop = heard ? *heard : std::stop_token();
-  const auto plan_one = [&](std::size_t i) {
-    const Listening listening(stop);
+  side_by_side(candidates.size(), [&](std::size_t i) {
     const auto& c = candidates[i];
     all.certified[i] = certified_plan(c.part, c.what_if);
     all.judged[i] = all.certified[i];
     judge(c.part, all.judged[i]);
-  };
-  // A thread that waits for the others takes no work of another request meanwhile.
-  tbb::this_task_arena::isolate([&] {
-    tbb::parallel_for(std::size_t{0}, candidates.size(), plan_one,
-                      tbb::simple_partitioner());
   });
   prefer_proven(candidates, all);
   return all;

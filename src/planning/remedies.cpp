@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
+#include <utility>
 
 #include "certified_plan.hpp"
 #include "planning/clamping/positions.hpp"
@@ -12,6 +14,7 @@
 #include "planning/limits/relaxation.hpp"
 #include "planning/preparation/grips.hpp"
 #include "planning/values/readable.hpp"
+#include "side_by_side.hpp"
 #include "turnwright/planning/prepare.hpp"
 
 namespace turnwright::planning {
@@ -144,6 +147,16 @@ std::optional<ProcessPlan> plan_of(PlanRequest request) {
   return plan;
 }
 
+using Plans = std::vector<std::optional<ProcessPlan>>;
+
+// The plans of that many changed requests.
+Plans plans_of(std::size_t count,
+               const std::function<PlanRequest(std::size_t)>& request) {
+  Plans all(count);
+  side_by_side(count, [&](std::size_t i) { all[i] = plan_of(request(i)); });
+  return all;
+}
+
 void add_remedy(const ProcessPlan& with, std::vector<RequestChange> changes,
                 const std::string& sentence, std::vector<Remedy>& all) {
   const bool two = changes.size() > 1;
@@ -156,25 +169,35 @@ void add_remedy(const ProcessPlan& with, std::vector<RequestChange> changes,
 // Two changes together; those of one setup's jaws, or of two tools, exclude each other.
 void add_pairs(const PreparedPart& p, const std::vector<Variant>& all,
                std::vector<Remedy>& found) {
-  constexpr int kTried = 100;
-  int tried = 0;
+  constexpr std::size_t kTried = 100;
+  std::vector<std::pair<const Variant*, const Variant*>> pairs;
   for (std::size_t i = 0; i < all.size(); ++i)
-    for (std::size_t k = i + 1; k < all.size(); ++k) {
+    for (std::size_t k = i + 1; k < all.size() && pairs.size() < kTried; ++k) {
       const auto &a = all[i].change, &b = all[k].change;
       if (a.kind == b.kind && (a.kind == Kind::tool || a.setup == b.setup)) continue;
-      if (++tried > kTried) return;
-      if (const auto plan = plan_of(with(with(p, a), b)))
-        add_remedy(*plan, {a, b}, all[i].sentence + " and " + all[k].sentence, found);
+      pairs.emplace_back(&all[i], &all[k]);
     }
+  const auto plans = plans_of(pairs.size(), [&](std::size_t i) {
+    return with(with(p, pairs[i].first->change), pairs[i].second->change);
+  });
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const auto& [a, b] = pairs[i];
+    if (plans[i])
+      add_remedy(*plans[i], {a->change, b->change}, a->sentence + " and " + b->sentence,
+                 found);
+  }
 }
 
 }  // namespace
 
 void add_remedies(const PreparedPart& p, const Attempt* attempt, ProcessPlan& result) {
   const auto all = variants(p, attempt);
-  for (const auto& [change, sentence] : all) {
-    if (const auto plan = plan_of(with(p, change)))
-      add_remedy(*plan, {change}, sentence, result.remedies);
+  const auto plans =
+      plans_of(all.size(), [&](std::size_t i) { return with(p, all[i].change); });
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const auto& [change, sentence] = all[i];
+    if (plans[i])
+      add_remedy(*plans[i], {change}, sentence, result.remedies);
     else
       result.tried.push_back({change, sentence});
   }

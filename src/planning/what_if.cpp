@@ -7,6 +7,7 @@
 #include "certified_plan.hpp"
 #include "explanation.hpp"
 #include "planning/values/readable.hpp"
+#include "side_by_side.hpp"
 #include "turnwright/planning/prepare.hpp"
 
 namespace turnwright::planning {
@@ -63,17 +64,18 @@ void answer_one(const PreparedPart& p, const PreparedPart& part, const ProcessPl
 
 void answer(const PreparedPart& p, const std::vector<WhatIf>& what_if,
             ProcessPlan& result) {
-  for (std::size_t k = 0; k < what_if.size(); ++k)
+  side_by_side(what_if.size(), [&](std::size_t k) {
     answer_one(p, what_if[k].part, result, result.what_if[k]);
+  });
 }
 
 void answer(const PreparedPart& p, const std::vector<WithoutRule>& without,
             ProcessPlan& result) {
-  for (const auto& w : without) {
-    auto& a = result.rules.emplace_back();
-    a.name = w.name;
-    answer_one(p, prepare(w.request), result, a);
-  }
+  result.rules.resize(without.size());
+  side_by_side(without.size(), [&](std::size_t k) {
+    result.rules[k].name = without[k].name;
+    answer_one(p, prepare(without[k].request), result, result.rules[k]);
+  });
 }
 
 }  // namespace turnwright::planning

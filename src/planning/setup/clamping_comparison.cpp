@@ -7,6 +7,7 @@
 
 #include "infeasibility_reason.hpp"
 #include "planning/clamping/clamping_checks.hpp"
+#include "planning/side_by_side.hpp"
 #include "setup_planner.hpp"
 #include "setup_totals.hpp"
 #include "turnwright/base/interval.hpp"
@@ -120,12 +121,17 @@ Attempt attempt(const PreparedPart& p, Economy economy) {
   Attempt a;
   a.breakdown.stock.cost = p.stock_price;
   a.objective = a.lower_bound = economy.edge * p.stock_price;
-  auto done = nothing_finished(p.drawing);
-  for (std::size_t s = 0; s < p.setups.size(); ++s) {
-    a.setups.push_back(compare_clampings(p, s, p.work.setups[s], done, economy));
-    const auto& c = a.setups.back();
+  std::vector<Finished> before{nothing_finished(p.drawing)};
+  for (const auto& work : p.work.setups) {
+    before.push_back(before.back());
+    finish(before.back(), work);
+  }
+  a.setups.resize(p.setups.size());
+  side_by_side(p.setups.size(), [&](std::size_t s) {
+    a.setups[s] = compare_clampings(p, s, p.work.setups[s], before[s], economy);
+  });
+  for (const auto& c : a.setups) {
     a.feasible = a.feasible && c.solved && c.chosen.feasible();
-    finish(done, p.work.setups[s]);
     if (!c.solved) a.lower_bound = kInfinity;
     if (!c.solved) continue;
     a.breakdown += breakdown(p, c.chosen);
