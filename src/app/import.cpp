@@ -32,9 +32,12 @@ nlohmann::json request_of(const ImportArguments& arguments) {
   auto bytes = read_foreign_file(arguments.file, kDrawing);
   const auto first = bytes.find_first_not_of(" \t\r\n");
   const bool drawing = first == std::string::npos || bytes[first] != '{';
+  const auto name = name_of_foreign_file(arguments.file);
   auto request = drawing ? document::import_request(std::move(bytes))
-                         : document::parse(bytes, name_of_foreign_file(arguments.file),
-                                           document::kLocalLimits);
+                         : document::parse(bytes, name, document::kLocalLimits);
+  if (request.is_object() && request.contains("outer"))
+    throw InputError(name, {{"document", "a part document",
+                             "a drawing, for plan takes this file as it is", "type"}});
   request.update(arguments.members);
   return request;
 }

@@ -122,10 +122,28 @@ std::optional<double> first_order_saving(const PreparedPart& p,
   return -*costs;
 }
 
+Shortfall shortfall(const Attempt& a) {
+  Shortfall s;
+  for (const auto& setup : a.setups) {
+    s.unsolved = s.unsolved || !setup.solved;
+    for (const auto& f : setup.chosen.features) {
+      if (f.answer.feasible) continue;
+      ++s.missed;
+      if (f.answer.model) s.violation += f.answer.least_violation;
+    }
+  }
+  return s;
+}
+
 }  // namespace
 
 ProcessPlan certified_plan(const PreparedPart& p, const std::vector<WhatIf>& what_if) {
-  ProcessPlan result;
+  return nearest_plan(p, what_if).plan;
+}
+
+NearestPlan nearest_plan(const PreparedPart& p, const std::vector<WhatIf>& what_if) {
+  NearestPlan nearest;
+  auto& result = nearest.plan;
   for (const auto& w : what_if) result.what_if.emplace_back().name = w.name;
   add_unreachable(p, result);
   add_used_up(p, tolerances_left_to_the_stock(p), result);
@@ -135,7 +153,8 @@ ProcessPlan certified_plan(const PreparedPart& p, const std::vector<WhatIf>& wha
     result.status = PlanStatus::infeasible;
     result.certificate.reason =
         "no conditions of turning and boring can resolve the conflicts";
-    return result;
+    nearest.shortfall.unsolved = true;
+    return nearest;
   }
   const auto a = best_attempt(p);
   std::vector<SolvedSetup> chosen;
@@ -146,7 +165,8 @@ ProcessPlan certified_plan(const PreparedPart& p, const std::vector<WhatIf>& wha
   if (!a.feasible) {
     result.status = PlanStatus::infeasible;
     result.certificate = no_certificate(a);
-    return result;
+    nearest.shortfall = shortfall(a);
+    return nearest;
   }
   result.tolerances = tolerance_results(p, chosen);
   result.worst_conformance = worst_conformance(p, result.tolerances);
@@ -156,7 +176,10 @@ ProcessPlan certified_plan(const PreparedPart& p, const std::vector<WhatIf>& wha
     result.setups[s].breakdown = breakdown(p, chosen[s]);
   add_totals(p, result);
   result.certificate = total_certificate(a);
-  if (add_missed(p, result)) return result;
+  if (add_missed(p, result)) {
+    nearest.shortfall.missed = result.conflicts.size();
+    return nearest;
+  }
   result.deviations = deviations(p, chosen);
   result.offsets = offsets(p, chosen);
   result.compensation = compensations(chosen);
@@ -167,7 +190,7 @@ ProcessPlan certified_plan(const PreparedPart& p, const std::vector<WhatIf>& wha
   for (std::size_t k = 0; k < what_if.size(); ++k)
     result.what_if[k].first_order_saves_per_part =
         first_order_saving(p, chosen, what_if[k].part);
-  return result;
+  return nearest;
 }
 
 }  // namespace turnwright::planning

@@ -1,4 +1,7 @@
 #pragma once
+#include <compare>
+#include <cstddef>
+
 #include "turnwright/planning/changed_request.hpp"
 #include "turnwright/planning/process_plan.hpp"
 
@@ -11,5 +14,22 @@ namespace turnwright::planning {
 /// Why a part that cannot be made cannot is for explanation.hpp.
 ProcessPlan certified_plan(const PreparedPart& part,
                            const std::vector<WhatIf>& what_if = {});
+
+/// How far a part is from a plan, compared member by member; all zero with a plan.
+struct Shortfall {
+  bool unsolved = false;   ///< a conflict that no conditions can resolve
+  std::size_t missed = 0;  ///< surfaces or tolerances that are not kept
+  double violation =
+      0;  ///< sum over these surfaces of ln(value/limit) of the worst limit
+  auto operator<=>(const Shortfall&) const = default;
+};
+
+/// certified_plan() and how far from a plan the conditions are that come closest.
+struct NearestPlan {
+  ProcessPlan plan;
+  Shortfall shortfall;
+};
+NearestPlan nearest_plan(const PreparedPart& part,
+                         const std::vector<WhatIf>& what_if = {});
 
 }  // namespace turnwright::planning

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "certified_plan.hpp"
 #include "completed_plan.hpp"
@@ -61,11 +62,12 @@ void add(const Certificate& other, Certificate& c) {
   }
 }
 
-std::string sentence(const Alternative& a, const ProcessPlan& best) {
+std::string sentence(const Alternative& a, const ProcessPlan& best, bool answer) {
   if (a.chosen) return fmt::format("{}: chosen", a.name);
   if (!a.feasible)
-    return fmt::format("{}: no feasible plan{}{}", a.name, a.why.empty() ? "" : ": ",
-                       a.why);
+    return fmt::format("{}: {}no feasible plan{}{}", a.name,
+                       answer ? "comes closest, its conflicts are told; " : "",
+                       a.why.empty() ? "" : ": ", a.why);
   const double more = *a.cost_per_part - best.cost_per_part;
   const double seconds = 60 * (*a.time_per_part_min - best.time_per_part_min);
   return fmt::format("{}: {} {} per part, {} s {}", a.name, readable(std::abs(more)),
@@ -77,6 +79,7 @@ std::string sentence(const Alternative& a, const ProcessPlan& best) {
 // preference of proven conditions.
 struct Compared {
   std::vector<ProcessPlan> certified, judged;
+  std::vector<Shortfall> shortfalls;   // before the judge
   std::vector<std::string> set_aside;  // why, else empty
 };
 
@@ -107,10 +110,13 @@ void prefer_proven(const std::vector<Candidate>& candidates, Compared& all) {
 Compared compare(const std::vector<Candidate>& candidates, const Judge& judge) {
   Compared all{std::vector<ProcessPlan>(candidates.size()),
                std::vector<ProcessPlan>(candidates.size()),
+               std::vector<Shortfall>(candidates.size()),
                std::vector<std::string>(candidates.size())};
   side_by_side(candidates.size(), [&](std::size_t i) {
     const auto& c = candidates[i];
-    all.certified[i] = certified_plan(c.part, c.what_if);
+    auto nearest = nearest_plan(c.part, c.what_if);
+    all.shortfalls[i] = nearest.shortfall;
+    all.certified[i] = std::move(nearest.plan);
     all.judged[i] = all.certified[i];
     judge(c.part, all.judged[i]);
   });
@@ -118,15 +124,20 @@ Compared compare(const std::vector<Candidate>& candidates, const Judge& judge) {
   return all;
 }
 
-std::size_t best_of(const std::vector<Candidate>& candidates,
-                    const std::vector<ProcessPlan>& plans) {
+std::size_t best_of(const std::vector<Candidate>& candidates, const Compared& all) {
+  const auto& plans = all.judged;
   const auto feasible = [&](std::size_t i) { return plans[i].status == PlanStatus::ok; };
   const auto value = [&](std::size_t i) {
     return objective(candidates[i].part, plans[i]);
   };
+  const auto better = [&](std::size_t i, std::size_t best) {
+    if (feasible(i) != feasible(best)) return feasible(i);
+    return feasible(i) ? value(i) < value(best)
+                       : all.shortfalls[i] < all.shortfalls[best];
+  };
   std::size_t best = 0;
   for (std::size_t i = 1; i < plans.size(); ++i)
-    if (feasible(i) && (!feasible(best) || value(i) < value(best))) best = i;
+    if (better(i, best)) best = i;
   // Without any plan, why there is none at any conditions is told.
   const bool proven = best + 1 < plans.size() && candidates[best + 1].unless_within;
   return !feasible(best) && proven ? best + 1 : best;
@@ -142,7 +153,8 @@ void add_alternatives(const std::vector<Candidate>& candidates, const Compared& 
     a.chosen = i == choice.chosen && a.feasible;
     if (a.feasible && !a.chosen && aside.empty())
       add(all.judged[i].certificate, plan.certificate);
-    a.sentence = aside.empty() ? sentence(a, plan) : sentence(a, plan) + ": " + aside;
+    a.sentence = sentence(a, plan, i == choice.chosen);
+    if (!aside.empty()) a.sentence += ": " + aside;
     plan.alternatives.push_back(std::move(a));
   }
 }
@@ -169,7 +181,7 @@ ChosenPlan choose(const std::vector<Candidate>& candidates, const Judge& judge) 
   if (candidates.size() == 1)
     return complete(0, certified_plan(candidates[0].part, candidates[0].what_if));
   const auto all = compare(candidates, judge);
-  const auto best = best_of(candidates, all.judged);
+  const auto best = best_of(candidates, all);
   auto choice = complete(best, all.certified[best]);
   add_alternatives(candidates, all, choice);
   return choice;

@@ -58,6 +58,10 @@ TEST_F(Import, NamesTheOptionOrTheFileThatIsWrong) {
       "elsewhere.step: document: got nothing readable, expected a STEP, DXF or text "
       "file\n");
   EXPECT_EQ(shell("turnwright import . --material C45").code, 2);
+  EXPECT_EQ(
+      shell("turnwright new -o part.json && turnwright import part.json").err,
+      "part.json: document: got a part document, expected a drawing, for plan takes "
+      "this file as it is\n");
   EXPECT_EQ(shell("turnwright import - --material C45 < /dev/null").code, 2);
 }
 

@@ -213,15 +213,58 @@ TEST(Choice, TheChangeOfEdgesIsTheCheapestOfThoseGiven) {
   EXPECT_EQ(c.plan.cost_per_part, least);
 }
 
-TEST(Choice, WithoutAPlanTheFirstCandidateSaysWhy) {
+TEST(Choice, WithoutAPlanNoneIsChosen) {
   json p = without(without(reference_part("infeasible-as-drawn"), "machine"), "setups");
   const auto c = chosen(having(
       p, "/choose",
       {{"setups", {left_then_right()}}, {"machine", {"lathe-small", "lathe-medium"}}}));
   EXPECT_EQ(c.plan.status, PlanStatus::infeasible);
-  EXPECT_EQ(c.chosen, 0u);
   EXPECT_FALSE(c.plan.conflicts.empty());
   for (const auto& a : c.plan.alternatives) EXPECT_FALSE(a.chosen);
+}
+
+// A slender bore that no bar can cut without chattering, and a reamer that can make it.
+json shaft_with_narrow_bore() {
+  return {
+      {"format", "turnwright-part/1"},
+      {"name", "Shaft with a narrow bore"},
+      {"material", "C45"},
+      {"stock", {{"kind", "bar"}, {"diameter_mm", 45}, {"length_mm", 164}}},
+      {"outer",
+       {{{"id", "seat"},
+         {"kind", "cylinder"},
+         {"length_mm", 65},
+         {"diameter_mm", 30},
+         {"Ra_um", 0.8}},
+        {{"id", "collar"}, {"kind", "cylinder"}, {"length_mm", 35}, {"diameter_mm", 42}},
+        {{"id", "end"}, {"kind", "cylinder"}, {"length_mm", 60}, {"diameter_mm", 25}}}},
+      {"inner",
+       {{{"id", "b1"},
+         {"from", "right"},
+         {"kind", "cylinder"},
+         {"length_mm", 30},
+         {"diameter_mm", 14},
+         {"fit", "H8"}}}},
+      {"machine", "lathe-medium"}};
+}
+
+TEST(Choice, WithoutAPlanTheCandidateThatComesClosestSaysWhy) {
+  const auto d = shaft_with_narrow_bore();
+  ASSERT_EQ(chosen(d).plan.status, PlanStatus::ok);
+  const auto asked = having(d, "/outer/0/Ra_um", 0.05);  // no tool can do that
+  const auto c = chosen(asked);
+  ASSERT_EQ(c.plan.alternatives.size(), 2u);
+  EXPECT_FALSE(c.plan.alternatives[0].feasible || c.plan.alternatives[1].feasible);
+  EXPECT_EQ(c.chosen, 1u);
+  EXPECT_TRUE(c.plan.alternatives[1].sentence.starts_with(
+      "b1 reamed: comes closest, its conflicts are told; no feasible plan"))
+      << c.plan.alternatives[1].sentence;
+  // The same as where the drawing leaves no choice: only the roughness is in the way.
+  const auto alone = chosen(having(asked, "/inner/0/kind", "hole"));
+  ASSERT_EQ(c.plan.conflicts.size(), 1u);
+  EXPECT_EQ(c.plan.conflicts[0].limit, "roughness Ra");
+  ASSERT_EQ(alone.plan.conflicts.size(), 1u);
+  EXPECT_EQ(c.plan.conflicts[0].sentence, alone.plan.conflicts[0].sentence);
 }
 
 }  // namespace

@@ -40,8 +40,9 @@ std::vector<ProcessPlan> judged_plans(const std::vector<Candidate>& candidates,
 /// candidates, one at proven conditions and one at any, one is set aside first.  Each candidate's
 /// plan has its own certificate, so no candidate can be made for less than the least of their
 /// lower bounds: the plan's certificate says so.  If none is feasible, the plan is that of
-/// the first candidate and explains why.  Candidates are planned side by side, as by
-/// judged_plans.
+/// the candidate that comes closest and explains why: the one with the fewest surfaces that
+/// cannot be made, then with the least sum of what these exceed their limits by; the first of
+/// equals.  Candidates are planned side by side, as by judged_plans.
 /// @throws std::domain_error without a candidate, or if profit is the objective and no price
 ///   is given.
 ChosenPlan choose(const std::vector<Candidate>& candidates, const Judge& judge);

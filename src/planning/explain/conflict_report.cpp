@@ -214,6 +214,12 @@ class Explanation {
                          c.limit, readable(c.allowed), c.unit.empty() ? "" : " ", c.unit,
                          others.empty() ? "what the tools can cut" : others);
     const auto [value, allowed] = readable_apart(c.value, c.allowed);
+    if (oracle_.limits()[limit].row->check == Check::chatter)
+      return fmt::format(
+          "{}: {} would come to {} times what is stable at best, with any clamping, "
+          "tools "
+          "and conditions allowed{}",
+          c.where, c.limit, value, others.empty() ? "" : " that keep " + others);
     return fmt::format(
         "{}: {} would come to {} {} at best, with any clamping, tools and conditions "
         "allowed{}; its limit is {} {}",
@@ -230,6 +236,12 @@ class Explanation {
       return r;
     }
     const auto [from, to] = readable_apart(r.now, needed);
+    if (l.row->check == Check::chatter) {
+      r.sentence = fmt::format(
+          "to keep {}, stiffness or damping would have to be {} times as large", r.limit,
+          to);
+      return r;
+    }
     r.sentence = fmt::format("{} would have to {} from {} to {} {}", r.limit,
                              l.row->is_width ? "open" : "go", from, to, n.unit);
     if (l.row->is_width && p_.drawing.tolerances[l.owner].limits)

@@ -155,9 +155,13 @@ std::string kept(const ordered_json& result) {
   const auto p = number(worst, "P_conform");
   if (!p) return "every limit is kept";
   const auto percent = shown(100 * *p, 2), id = word(worst, "tolerance");
-  if (keeps_too_few(result))
+  if (keeps_too_few(result)) {
+    const auto wanted = number(worst, "wanted");
+    int digits = 2;  // as many as tell the two apart
+    while (shown(100 * *p, digits) == shown(100 * *wanted, digits)) ++digits;
     return fmt::format("kept nominally only: {} % of the parts keep {}, wanted are {} %",
-                       percent, id, shown(100 * *number(worst, "wanted"), 2));
+                       shown(100 * *p, digits), id, shown(100 * *wanted, digits));
+  }
   return fmt::format("every limit is kept, {} by the fewest parts, {} %", id, percent);
 }
 

@@ -8,6 +8,7 @@
 
 #include "../parts.hpp"
 #include "planning/limits/relaxation.hpp"
+#include "planning/values/readable.hpp"
 #include "turnwright/planning/plan.hpp"
 #include "turnwright/planning/process_plan.hpp"
 
@@ -369,6 +370,33 @@ TEST(Conflicts, LimitsAreToldByNameWithWhatTheyAre) {
   EXPECT_EQ(told(spindle_max), "largest spindle speed <= 4500 1/min");
   EXPECT_EQ(told(Ra, 1), "roughness Ra <= 3.2 um");
   EXPECT_EQ(told(Rz, 0), "roughness Rz <= 25 um");
+}
+
+// By (3) of docs/planning-chatter.md what is stable grows with zeta (1 + zeta), so what is told
+// of chatter can be had by damping.
+TEST(Conflicts, ChatterIsToldInTimesOfWhatIsStable) {
+  constexpr double kLittle = 0.0005;
+  json d = pin();
+  d["damping_ratio"] = kLittle;
+  const auto r = certified_plan(d);
+  ASSERT_EQ(r.conflicts.size(), 1u);
+  EXPECT_NE(r.conflicts[0].sentence.find("times what is stable at best"),
+            std::string::npos)
+      << r.conflicts[0].sentence;
+  ASSERT_EQ(r.relax.size(), 1u);
+  const double times = r.relax[0].needed;
+  EXPECT_EQ(
+      r.relax[0].sentence,
+      fmt::format("to keep chatter stiffness, stiffness or damping would have to be {} "
+                  "times as large",
+                  readable(times)));
+  const auto damped = [&](double by) {
+    const double product = by * kLittle * (1 + kLittle);
+    d["damping_ratio"] = 2 * product / (1 + std::sqrt(1 + 4 * product));
+    return feasible(d);
+  };
+  EXPECT_TRUE(damped(times));
+  EXPECT_FALSE(damped(0.98 * times));
 }
 
 class MachineLimit : public testing::TestWithParam<std::pair<const char*, double>> {};

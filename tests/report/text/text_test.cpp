@@ -172,6 +172,11 @@ TEST(Text, HeadNamesTheToleranceThatFewestPartsKeep) {
       has(squeezed(half),
           "kept nominally only: 50.00 % of the parts keep d2:diameter, wanted are "
           "99.73 %"));
+  result["worst_conformance"]["P_conform"] = 0.99727;
+  EXPECT_TRUE(
+      has(squeezed(text(result)),
+          "kept nominally only: 99.727 % of the parts keep d2:diameter, wanted are "
+          "99.730 %"));
 }
 
 TEST(Text, HeadTellsThePreparingOfTheMachineApart) {
