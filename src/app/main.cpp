@@ -467,11 +467,15 @@ void add_lists(CLI::App& app, Arguments& arguments, std::function<Exit()>& chose
   list->callback(
       [&arguments, &chosen] { chosen = [&arguments] { return run_list(arguments); }; });
   auto* schema = app.add_subcommand("schema", "prints the JSON schema of a document");
-  schema->add_option("NAME", arguments.listed, "a name that `list schemas` shows")
-      ->required();
+  schema->add_option("NAME", arguments.listed,
+                     "a name that `list schemas` shows; without it, these");
   schema->footer("Example:\n  turnwright schema part");
   schema->callback([&arguments, &chosen] {
     chosen = [&arguments] {
+      if (arguments.listed.empty()) {
+        arguments.listed = "schemas";
+        return run_list(arguments);
+      }
       service::print(
           service::schema(document::data_folder(arguments.data), arguments.listed));
       return kOk;

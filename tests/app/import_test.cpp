@@ -71,6 +71,7 @@ TEST_F(CommandLine, PrintsSchemas) {
   EXPECT_EQ(nlohmann::json::parse(part.out)["title"], "Part plan");
   EXPECT_EQ(shell("turnwright schema plan").out, part.out);
   EXPECT_NE(shell("turnwright list schemas").out.find("plan.result "), std::string::npos);
+  EXPECT_EQ(shell("turnwright schema").out, shell("turnwright list schemas").out);
   const auto wrong = shell("turnwright schema parts");
   EXPECT_EQ(wrong.code, 2);
   EXPECT_NE(wrong.err.find("did you mean \"part\"?"), std::string::npos) << wrong.err;
