@@ -108,6 +108,11 @@ std::string label_at_front(std::string_view text, Language language) {
   return name_at_front(text).first;
 }
 
+bool names_okuma_file(std::string_view line) {
+  line = without_blanks(line);
+  return line.starts_with('$') && line.ends_with('%');
+}
+
 std::string_view okuma_statement_of(std::string_view line) {
   line = without_slash(line);
   if (const auto N = labelled(line, 'N')) line = N->second;
@@ -161,7 +166,8 @@ Labels::Labels(const std::vector<std::string_view>& lines, Language language)
     }
     if (!begins.empty())
       begin(begins, i, blocks_before);
-    else if (begins_.empty() && !line.starts_with('%'))
+    else if (begins_.empty() && !line.starts_with('%') &&
+             !(okuma && names_okuma_file(line)))
       blocks_before = blocks_before || !statement_of(line).empty();
   }
   std::ranges::sort(blocks_);

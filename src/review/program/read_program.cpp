@@ -144,7 +144,7 @@ class ProgramReader {
   void line(std::size_t at) {
     s_.line = at + 1;
     const auto text = flow_.lines()[at];
-    if (trimmed(text).starts_with('%')) return;
+    if (trimmed(text).starts_with('%') || (okuma_ && names_okuma_file(text))) return;
     try {
       execute(text);
     } catch (const NotFollowed& why) {
