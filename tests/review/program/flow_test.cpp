@@ -48,6 +48,20 @@ TEST(FanucMacro, ReckonsInItsOwnRanks) {
   }
 }
 
+// A control stops with an alarm where a value grows beyond what it can hold.
+TEST(FanucMacro, HasNoValuesBeyondAllBounds) {
+  const std::string grows = "#1=1\nWHILE [#2 LT 2000] DO1\n#1=#1+#1\n#2=#2+1\nEND1\n";
+  for (const char* text : {"S#1", "F#1", "G#1", "M#1", "T#1", "G[9.*[99999999.]] X1."}) {
+    const auto p = read(Control::fanuc, kStart + grows + text + "\nG0 X20. Z5.\nG1 Z0.");
+    ASSERT_FALSE(p.unknown.empty()) << text;
+    EXPECT_EQ(p.unknown.back().what, text);
+    for (const auto& run : p.runs) {
+      EXPECT_LE(run.step.S, 500) << text;
+      EXPECT_LE(run.step.f_mm_rev, 0.1) << text;
+    }
+  }
+}
+
 // The table of Fanuc's manual for a vacant #1, and for #1 = 0.
 TEST(FanucMacro, TellsVacantFromZero) {
   const auto holds = [](const std::string& condition) {
