@@ -53,7 +53,10 @@ std::optional<std::pair<std::string, std::string_view>> labelled(std::string_vie
 
 std::string_view without_slash(std::string_view line) {
   line = without_blanks(line);
-  return without_blanks(line.substr(line.starts_with('/') ? 1 : 0));
+  if (!line.starts_with('/')) return line;
+  line.remove_prefix(1);
+  if (!line.empty() && is_digit(line.front())) line.remove_prefix(1);  // "/2": a switch
+  return without_blanks(line);
 }
 
 // "MARK:" at the front of a text, and what follows.

@@ -340,6 +340,7 @@ Block block_of(std::string_view line, Language language) {
   if (in.next() == '/') {
     block.deletable = true;
     in.skip();
+    if (is_digit(in.next())) in.skip();  // "/2": by the second of several switches
   }
   if (language == Language::siemens) skip_label(in);
   if (language == Language::okuma) skip_named_number(in);
