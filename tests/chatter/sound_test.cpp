@@ -132,6 +132,35 @@ TEST(Sound, OutsideTheBandNothingIsHeard) {
       listen(sound_of(cut, 1), {.n_rpm = 6000, .teeth = 4, .to_Hz = 1400}).chatter);
 }
 
+// A sensor that is off leaves a constant; what the transform rounds is no sound.
+TEST(Sound, AConstantIsSilence) {
+  for (const double x : {0.1, 5000 / 32768.0, -1e30, 1e-40}) {
+    const Sound sound{48000, std::vector<double>(48000, x)};
+    const auto heard = listen(sound, {.n_rpm = 6000, .teeth = 4, .to_Hz = {}});
+    EXPECT_TRUE(heard.harmonics.empty()) << x;
+    EXPECT_TRUE(heard.others.empty()) << x;
+    EXPECT_FALSE(heard.chatter) << x;
+    EXPECT_DOUBLE_EQ(heard.n_rpm, 6000) << x;
+  }
+}
+
+// Nor does one beside the sound, as of an accelerometer under gravity, change what is heard.
+TEST(Sound, AConstantBesideItIsNotHeard) {
+  Cut cut;
+  for (const double chatter : {0.0, 1.0}) {
+    cut.chatter_Hz = 1430;
+    cut.chatter = chatter;
+    auto sound = sound_of(cut, 1);
+    const auto alone = listen(sound, {.n_rpm = 6000, .teeth = 4, .to_Hz = {}});
+    for (double& x : sound.value) x += 1e4;
+    const auto beside = listen(sound, {.n_rpm = 6000, .teeth = 4, .to_Hz = {}});
+    EXPECT_NEAR(beside.n_rpm, alone.n_rpm, 1e-6);
+    ASSERT_EQ(beside.chatter.has_value(), alone.chatter.has_value());
+    if (!alone.chatter) continue;
+    EXPECT_NEAR(beside.chatter->frequency_Hz, alone.chatter->frequency_Hz, 1e-6);
+  }
+}
+
 TEST(Sound, RefusesWhatIsTooShort) {
   Cut cut;
   cut.seconds = 0.15;  // 15 revolutions

@@ -37,19 +37,25 @@ class SoundSpectrum {
     while (size < kFiner * length) size *= 2;
     step_Hz_ = rate_Hz_ / static_cast<double>(size);
     power_.assign(size / 2, 0);
+    for (const double x : sound.value) largest_ = std::max(largest_, std::abs(x));
     Eigen::FFT<double> fft;
     std::vector<double> block(size, 0);
     std::vector<std::complex<double>> transform;
     double blocks = 0;
     for (std::size_t from = 0; from + length <= sound.value.size(); from += length / 2) {
       leave_if_asked();
-      double weights = 0;
+      double weights = 0, sum = 0;
+      const auto weight = [length](std::size_t i) {
+        return std::pow(std::sin(units::kPi * (static_cast<double>(i) + 0.5) /
+                                 static_cast<double>(length)),
+                        2);
+      };
       for (std::size_t i = 0; i < length; ++i) {
-        const double s = std::sin(units::kPi * (static_cast<double>(i) + 0.5) /
-                                  static_cast<double>(length));
-        block[i] = s * s * sound.value[from + i];
-        weights += s * s;
+        weights += weight(i);
+        sum += weight(i) * sound.value[from + i];
       }
+      for (std::size_t i = 0; i < length; ++i)  // without the mean, which leaks
+        block[i] = weight(i) * (sound.value[from + i] - sum / weights);
       fft.fwd(transform, block);
       for (std::size_t i = 0; i < power_.size(); ++i)
         power_[i] += std::norm(2.0 / weights * transform[i]);
@@ -59,6 +65,11 @@ class SoundSpectrum {
   }
 
   double resolution_Hz() const { return resolution_Hz_; }
+  /// Less is rounding, as beside a constant.
+  double least_power() const {
+    constexpr double kRounded = 1e-12;  // of the largest sample
+    return std::max(std::pow(kRounded * largest_, 2), std::numeric_limits<double>::min());
+  }
   double frequency_Hz(std::size_t line) const {
     return static_cast<double>(line) * step_Hz_;
   }
@@ -89,7 +100,7 @@ class SoundSpectrum {
   }
 
  private:
-  double rate_Hz_, resolution_Hz_ = 0, step_Hz_ = 0;
+  double rate_Hz_, resolution_Hz_ = 0, step_Hz_ = 0, largest_ = 0;
   std::vector<double> power_;
 };
 
@@ -147,7 +158,7 @@ class Listener {
             about.push_back(spectrum_.power(spectrum_.line(g)));
       }
       noise_.push_back(std::max(median(std::move(about)) / std::numbers::ln2,
-                                std::numeric_limits<double>::min()));
+                                spectrum_.least_power()));
     }
     noise_step_ = std::log(kNext);
   }

@@ -13,8 +13,15 @@ using gcode::Control;
 
 constexpr double kLinuxCncBack_mm = 0.254;  // fixed in its interpreter
 constexpr double kBackIsSetting_mm = 0.5;   // a parameter or setting of the others
+constexpr double kMostHoles = 9999;
 
 bool like_haas(Control c) { return c == Control::haas || c == Control::linuxcnc; }
+
+// How often a block drills: L of Haas and LinuxCNC, K of the others.
+double repeats(Control control, const Block& block) {
+  const double times = block.value(like_haas(control) ? "L" : "K").value_or(1);
+  return std::clamp(std::floor(times), 0.0, kMostHoles);
+}
 
 }  // namespace
 
@@ -66,7 +73,10 @@ void DrillCycleReader::take(ModalState& s, Control control, int code, const Bloc
   d.wait_bottom_min = P && code != 81 ? *P->value / (ms ? 1000 : 1) / 60 : 0;
   if (code == 85 || code == 89) d.feed_out = s.F;
   d.feeds_away = linuxcnc && code == 89;
-  drill_cycle(s, d);
+  for (double k = 0; k < repeats(control, block) && !s.full(); ++k) {
+    if (linuxcnc && k > 0) s.straight(toolpath::Move::Kind::rapid, s.x_mm, s.z_mm);
+    drill_cycle(s, d);
+  }
 }
 
 }  // namespace turnwright::review

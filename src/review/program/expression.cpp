@@ -181,8 +181,8 @@ class Expression {
 
   double applied(std::string_view name, const Value& left, const Value& right) const {
     const double a = left.value_or(0), b = right.value_or(0);
-    if (name == "+") return a + b;
-    if (name == "-") return a - b;
+    if (name == "+") return checked(a + b);
+    if (name == "-") return checked(a - b);
     if (name == "*") return checked(a * b);
     if (name == "/") return checked(a / b);
     if (name == "**") return checked(std::pow(a, b));
@@ -434,6 +434,8 @@ void evaluate(Block& block, Parameters& parameters) {
   for (auto& w : block.words) {
     if (w.expression.empty()) continue;
     w.value = value_of(w.expression, parameters);
+    if (!(std::abs(w.value.value_or(0)) <= kLargestWord))
+      throw NotFollowed(fmt::format("{} is larger than words may be.", w.text));
     w.point = true;
   }
   std::erase_if(block.words,

@@ -53,7 +53,10 @@ std::optional<std::pair<std::string, std::string_view>> labelled(std::string_vie
 
 std::string_view without_slash(std::string_view line) {
   line = without_blanks(line);
-  return without_blanks(line.substr(line.starts_with('/') ? 1 : 0));
+  if (!line.starts_with('/')) return line;
+  line.remove_prefix(1);
+  if (!line.empty() && is_digit(line.front())) line.remove_prefix(1);  // "/2": a switch
+  return without_blanks(line);
 }
 
 // "MARK:" at the front of a text, and what follows.
@@ -106,6 +109,11 @@ std::string label_at_front(std::string_view text, Language language) {
     if (label) return std::move(label->first);
   }
   return name_at_front(text).first;
+}
+
+bool names_okuma_file(std::string_view line) {
+  line = without_blanks(line);
+  return line.starts_with('$') && line.ends_with('%');
 }
 
 std::string_view okuma_statement_of(std::string_view line) {
@@ -161,7 +169,8 @@ Labels::Labels(const std::vector<std::string_view>& lines, Language language)
     }
     if (!begins.empty())
       begin(begins, i, blocks_before);
-    else if (begins_.empty() && !line.starts_with('%'))
+    else if (begins_.empty() && !line.starts_with('%') &&
+             !(okuma && names_okuma_file(line)))
       blocks_before = blocks_before || !statement_of(line).empty();
   }
   std::ranges::sort(blocks_);

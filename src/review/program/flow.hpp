@@ -145,6 +145,8 @@ std::string_view statement_of(std::string_view line);
 std::string_view siemens_statement_of(std::string_view line);
 /// The same of Okuma, whose blocks may have a name and whose variables NOEX before them.
 std::string_view okuma_statement_of(std::string_view line);
+/// Whether a line is the name of a file as Okuma's controls send it: "$SHAFT.MIN%".
+bool names_okuma_file(std::string_view line);
 /// The label that stands at the front of a text: "N10" and "O10" as the number, of Okuma
 /// names without their first letter.
 std::string label_at_front(std::string_view text, Language language);

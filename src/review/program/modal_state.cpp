@@ -42,6 +42,9 @@ void list(std::vector<Unknown>& all, Unknown unknown) {
 }
 
 void ModalState::unknown(std::string what, std::string why) {
+  // A line of a loop is told once.
+  for (const auto& u : program.unknown)
+    if (u.line == line && u.what == what && u.why == why) return;
   list(program.unknown, {line, std::move(what), std::move(why)});
 }
 

@@ -144,7 +144,7 @@ class ProgramReader {
   void line(std::size_t at) {
     s_.line = at + 1;
     const auto text = flow_.lines()[at];
-    if (trimmed(text).starts_with('%')) return;
+    if (trimmed(text).starts_with('%') || (okuma_ && names_okuma_file(text))) return;
     try {
       execute(text);
     } catch (const NotFollowed& why) {
@@ -241,6 +241,8 @@ class ProgramReader {
     if (!in_contour_ && special_ == Special::none &&
         begins_milling(s_, control_, motion_, block))
       take_up(s_, {MillingWord::What::begins});
+    // S beside M3 or M4 is the main spindle's, wherever it stands in the block.
+    if (s_.milling.on && turns_main_spindle(block)) s_.end_milling();
     for (const auto& w : block.words)
       if (w.name != "G" && !milling_word(control_, w)) word(w);
     tell_repeated(block);
@@ -494,12 +496,17 @@ class ProgramReader {
     if (control_ != Control::linuxcnc) s_.tool = number;
   }
 
+  bool turns_main_spindle(const Block& block) const {
+    if (driven_here_ || special_ == Special::macro || special_ == Special::modal_macro)
+      return false;
+    return std::ranges::any_of(block.words, [](const Word& w) {
+      return w.name == "M" && (w.value == 3 || w.value == 4);
+    });
+  }
+
   void machine(int m, const std::string& text) {
     if ((m == 3 || m == 4) && driven_here_) s_.milling.on = true, s_.turning = false;
-    if ((m == 3 || m == 4) && !driven_here_) {
-      if (s_.milling.on) s_.end_milling();
-      s_.turning = true;
-    }
+    if ((m == 3 || m == 4) && !driven_here_) s_.turning = true;
     if (m == 6) s_.tool = s_.chosen_tool;
     if (m == 198) s_.unknown(text, "The subprogram is not in the text.");
   }

@@ -127,6 +127,8 @@ Declared declared_in(std::string_view text, const std::string& type_before) {
   if (one_of(word, {"real", "int", "bool", "string", "char", "axis", "frame", "var"})) {
     d.type = word;
     text = rest;
+    if (word == "string" && text.starts_with('['))  // its length
+      text = trimmed_blanks(text.substr(std::min(text.find(']'), text.size() - 1) + 1));
   }
   auto [name, behind] = name_at_front(text);
   d.name = name;

@@ -10,8 +10,6 @@
 namespace turnwright::review {
 namespace {
 
-constexpr double kLargest = 1e7;
-
 // Reads a line from its front.
 class Scanner {
  public:
@@ -45,7 +43,7 @@ class Scanner {
     double value = 0;
     const auto [end, error] = std::from_chars(
         line_.data() + at_, line_.data() + line_.size(), value, std::chars_format::fixed);
-    if (error != std::errc() || !(std::abs(value) <= kLargest)) {
+    if (error != std::errc() || !(std::abs(value) <= kLargestWord)) {
       at_ = start;
       return std::nullopt;
     }
@@ -342,6 +340,7 @@ Block block_of(std::string_view line, Language language) {
   if (in.next() == '/') {
     block.deletable = true;
     in.skip();
+    if (is_digit(in.next())) in.skip();  // "/2": by the second of several switches
   }
   if (language == Language::siemens) skip_label(in);
   if (language == Language::okuma) skip_named_number(in);

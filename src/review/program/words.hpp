@@ -9,6 +9,9 @@
 /// Blocks of a program as words and comments, whatever the control.
 namespace turnwright::review {
 
+/// Larger numbers are no words of any control.
+inline constexpr double kLargestWord = 1e7;
+
 /// "X12.5", "LIMS=2500", "X1=0", "DIAMON" (which has no value).
 struct Word {
   std::string name;  ///< in capitals; of "X1=0" with its digit

@@ -123,6 +123,15 @@ TEST(DrillingCycles, GoInStrokesOnTheAxis) {
             (Ways{"G0 0 5", "G0 0 2", "G1 0 -8", "G1 0 2", "G0 0 2"}));
 }
 
+TEST(DrillingCycles, AreRepeated) {
+  for (const auto& [control, block] : {std::pair{Control::haas, "G81 Z-8. R2. L2 F0.1"},
+                                       {Control::fanuc, "G83 Z-8. R-3. K2 F0.1"}})
+    EXPECT_EQ(
+        cut(control, "G0 X0. Z5.\n" + std::string(block) + "\nG80"),
+        (Ways{"G0 0 5", "G0 0 2", "G1 0 -8", "G0 0 5", "G0 0 2", "G1 0 -8", "G0 0 5"}))
+        << block;
+}
+
 TEST(DrillingCycles, WaitAtTheBottom) {
   for (const auto& [control, block] : {std::pair{Control::haas, "G82 Z-8. R2. P0.5"},
                                        {Control::fanuc, "G83 Z-8. R-3. P500"},

@@ -48,6 +48,34 @@ TEST(FanucMacro, ReckonsInItsOwnRanks) {
   }
 }
 
+// Blocks may be skipped by one of several switches, "/2 N10 ..", and are taken as executed.
+TEST(ProgramFlow, ExecutesBlocksBehindASlash) {
+  for (const auto control : {Control::fanuc, Control::siemens, Control::okuma}) {
+    const bool fanuc = control == Control::fanuc;
+    const auto p = read(control, (fanuc ? kStart + "/2 GOTO 10"
+                                        : "G95 " + kStart.substr(4) + "/2 GOTO N10") +
+                                     "\nG1 X1.\nN10 G1 Z1.\n/ Z2.\n/1 N20 Z3.\n/9Z4.");
+    expect_understood(p);
+    EXPECT_EQ(moves(p).size(), 5u);
+    EXPECT_EQ(moves(p).back().z_mm, 4);
+    EXPECT_EQ(p.assumed.front(), "Blocks with a slash are taken as executed.");
+  }
+}
+
+// A control stops with an alarm where a value grows beyond what it can hold.
+TEST(FanucMacro, HasNoValuesBeyondAllBounds) {
+  const std::string grows = "#1=1\nWHILE [#2 LT 2000] DO1\n#1=#1+#1\n#2=#2+1\nEND1\n";
+  for (const char* text : {"S#1", "F#1", "G#1", "M#1", "T#1", "G[9.*[99999999.]] X1."}) {
+    const auto p = read(Control::fanuc, kStart + grows + text + "\nG0 X20. Z5.\nG1 Z0.");
+    ASSERT_FALSE(p.unknown.empty()) << text;
+    EXPECT_EQ(p.unknown.back().what, text);
+    for (const auto& run : p.runs) {
+      EXPECT_LE(run.step.S, 500) << text;
+      EXPECT_LE(run.step.f_mm_rev, 0.1) << text;
+    }
+  }
+}
+
 // The table of Fanuc's manual for a vacant #1, and for #1 = 0.
 TEST(FanucMacro, TellsVacantFromZero) {
   const auto holds = [](const std::string& condition) {

@@ -201,10 +201,11 @@ TEST(SubroutineCycles, TellWhatTheyCannotFollow) {
 
 TEST_F(ReadThroughLinuxCnc, DrillsOnTheAxis) {
   const std::string begin = "G18 G21 G8 G90 G94 G97 S500 M3 F100\nG0 X20 Z25\nX0\nG17\n";
-  for (const char* text : {"G98 G81 X0 Z-20 R2\n", "G99 G81 X0 Z-20 R2\n",
-                           "G98 G82 X0 Z-20 R3 P0.5\n", "G98 G83 X0 Z-20 R2 Q7\nZ-30\n",
-                           "G98 G73 X0 Z-20 R2 Q7\n", "G98 G85 X0 Z-20 R2\n",
-                           "G98 G89 X0 Z-20 R2 P1\n", "G98 G81 X0 Z-20 R2\nZ-24 R1\n"})
+  for (const char* text :
+       {"G98 G81 X0 Z-20 R2\n", "G99 G81 X0 Z-20 R2\n", "G98 G82 X0 Z-20 R3 P0.5\n",
+        "G98 G83 X0 Z-20 R2 Q7\nZ-30\n", "G98 G73 X0 Z-20 R2 Q7\n",
+        "G98 G85 X0 Z-20 R2\n", "G98 G89 X0 Z-20 R2 P1\n",
+        "G98 G81 X0 Z-20 R2\nZ-24 R1\n", "G98 G83 X0 Z-20 R2 Q12 L3\n"})
     expect_same(begin + text + "G80\nG18\nG0 X10 Z50\nM2\n");
 }
 

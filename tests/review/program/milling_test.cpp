@@ -74,6 +74,19 @@ TEST(Milling, TakesTimeAndKeepsThePlace) {
   }
 }
 
+// A speed beside the M3 that ends milling is the main spindle's, not the driven tool's.
+TEST(Milling, EndsBeforeTheSpeedOfTheMainSpindle) {
+  for (const auto control : {Control::fanuc, Control::siemens, Control::linuxcnc})
+    for (const char* spindle : {"G97 S500 M3\n", "G97 M4 S500\n"}) {
+      const bool a = control == Control::fanuc;
+      const auto p = read(control, std::string("G97 S1500 M3\nG0 X20. Z5.\nM5\n") +
+                                       (a ? "G98" : "G94") + " G0 C0.\nG1 X10. F100.\n" +
+                                       spindle + (a ? "G99" : "G95") + " F0.2\nG1 Z0.\n");
+      EXPECT_DOUBLE_EQ(p.runs.back().step.S, 500) << spindle;
+      EXPECT_FALSE(p.runs.back().step.milling) << spindle;
+    }
+}
+
 // C while the spindle turns and the tool feeds is no driven tool, and is told.
 TEST(Milling, IsNotACutWithTheSpindleTurning) {
   const auto p =

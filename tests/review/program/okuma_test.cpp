@@ -51,6 +51,14 @@ TEST(OkumaExpressions, Reckon) {
   }
 }
 
+// The name that the control writes before a program is no block of it.
+TEST(OkumaFlow, BeginsBehindTheNameOfTheFile) {
+  const auto p = read(Control::okuma, "$SHAFT.MIN%\r\nO0001\r\n" + kOkuma +
+                                          "G1 Z-5\nM2\nO2\nG1 Z-9\nRTS");
+  expect_understood(p);
+  EXPECT_EQ(ways(p), (std::vector<std::string>{"G0 10 5", "G1 10 -5"}));
+}
+
 TEST(OkumaFlow, BranchesToNumbersAndNames) {
   EXPECT_EQ(okuma_ends("V1=1\nN5 IF [V1 GT 3] NEND\nG1 X=V1\nV1=V1+1\nGOTO N5\n"
                        "NEND X9"),

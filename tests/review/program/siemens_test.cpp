@@ -65,7 +65,9 @@ TEST(SiemensExpressions, ReckonInTheirRanks) {
                                     {"R5=-3\nG1 X=-R5", 3.0},
                                     {"DEF REAL AA=2.5, BB\nBB=AA*2\nG1 X=BB", 5.0},
                                     {"DEF INT NO\nNO=2.6\nG1 X=NO", 3.0},
-                                    {"DEF REAL AA[3]\nAA[1]=8\nG1 X=AA[0]+AA[1]", 8.0}}) {
+                                    {"DEF REAL AA[3]\nAA[1]=8\nG1 X=AA[0]+AA[1]", 8.0},
+                                    {"DEF STRING[20] NAME=\"A, B\"\nG1 X=6", 6.0},
+                                    {"DEF STRING[20] NAME, OTHER\nG1 X=6", 6.0}}) {
     const std::string program = text;
     const auto p = read(Control::siemens, kSiemens + program);
     if (program.find("R9") == std::string::npos) expect_understood(p);
