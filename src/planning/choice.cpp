@@ -12,7 +12,7 @@
 #include "certified_plan.hpp"
 #include "completed_plan.hpp"
 #include "planning/values/readable.hpp"
-#include "side_by_side.hpp"
+#include "planning/values/side_by_side.hpp"
 #include "what_if.hpp"
 
 namespace turnwright::planning {

@@ -14,7 +14,7 @@
 #include "planning/limits/relaxation.hpp"
 #include "planning/preparation/grips.hpp"
 #include "planning/values/readable.hpp"
-#include "side_by_side.hpp"
+#include "planning/values/side_by_side.hpp"
 #include "turnwright/planning/prepare.hpp"
 
 namespace turnwright::planning {

@@ -7,7 +7,7 @@
 #include "certified_plan.hpp"
 #include "explanation.hpp"
 #include "planning/values/readable.hpp"
-#include "side_by_side.hpp"
+#include "planning/values/side_by_side.hpp"
 #include "turnwright/planning/prepare.hpp"
 
 namespace turnwright::planning {

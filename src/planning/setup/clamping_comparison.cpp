@@ -7,7 +7,7 @@
 
 #include "infeasibility_reason.hpp"
 #include "planning/clamping/clamping_checks.hpp"
-#include "planning/side_by_side.hpp"
+#include "planning/values/side_by_side.hpp"
 #include "setup_planner.hpp"
 #include "setup_totals.hpp"
 #include "turnwright/base/interval.hpp"

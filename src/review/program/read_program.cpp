@@ -299,7 +299,7 @@ class ProgramReader {
       s_.surface_speed = g == 96;
     else if (!units(g) && !feeds_and_boxes(g) && !zeros(g, block) &&
              std::ranges::find(kIdle, g) == kIdle.end())
-      strange(g);
+      strange(g, names_a_place(block, true));
   }
 
   // Contours and their cycles, and drilling.
@@ -390,11 +390,15 @@ class ProgramReader {
     return true;
   }
 
-  void strange(int g) {
+  // A code that nobody knows may be one of motion, if its block names a place.
+  void strange(int g, bool names_a_place) {
     const auto name = fmt::format("G{}", g);
     const bool cycle = (g >= 70 && g <= 89) || g == 32 || g == 33;
-    s_.unknown(name, cycle ? "The cycle is not followed." : "The code is not known.");
-    if (!cycle) return;
+    s_.unknown(name, cycle ? "The cycle is not followed."
+                     : names_a_place
+                         ? "The code is not known; the block may have moved the tool."
+                         : "The code is not known.");
+    if (!cycle && !names_a_place) return;
     s_.lose_place();
     special_ = Special::done;
   }

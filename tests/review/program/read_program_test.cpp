@@ -246,6 +246,17 @@ TEST(ReadProgram, DoesNotCutFromAPlaceThatIsNotKnown) {
   EXPECT_EQ(known, 1);
 }
 
+// A code that nobody knows may be one of motion, if its block names a place.
+TEST(ReadProgram, AnUnknownCodeBesideAPlaceLosesIt) {
+  const auto last = [](const std::string& line) {
+    const auto p =
+        read(Control::okuma, "G95 G97 S500 M3 F0.1\nG0 X20 Z2\n" + line + "\nG1 Z-9");
+    return p.runs.back().moves.back().from.has_value();
+  };
+  EXPECT_TRUE(last("G123"));
+  EXPECT_FALSE(last("G181 X18 Z-5"));
+}
+
 TEST(ReadProgram, DoesNotFollowShiftedZerosAndSubprogramsThatNobodyCalls) {
   const auto shifted = read(Control::linuxcnc,
                             "G95 G97 S500 M3\nG0 X20 Z2\nG92 Z0\nG1 Z-9 F0.1\nG92.1\n"

@@ -1,4 +1,4 @@
-#include "planning/side_by_side.hpp"
+#include "planning/values/side_by_side.hpp"
 
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>
@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "parts.hpp"
+#include "../parts.hpp"
 #include "turnwright/base/cancelled.hpp"
 #include "turnwright/document/process_plan.hpp"
 #include "turnwright/planning/plan.hpp"
