@@ -13,8 +13,8 @@ namespace {
 
 bool has_colours() {
   const char *term = std::getenv("TERM"), *none = std::getenv("NO_COLOR");
-  return ::isatty(STDOUT_FILENO) == 1 && term && std::string_view(term) != "dumb" &&
-         (!none || !*none);
+  return ::isatty(STDOUT_FILENO) == 1 && term && *term &&
+         std::string_view(term) != "dumb" && (!none || !*none);
 }
 
 }  // namespace
