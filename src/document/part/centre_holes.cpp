@@ -11,11 +11,6 @@ namespace {
 using part::CentreHole;
 using part::End;
 
-double number(std::string digits) {
-  std::replace(digits.begin(), digits.end(), ',', '.');
-  return std::stod(digits);
-}
-
 // "ISO 6411-A4/8.5", also "DIN 332-A 4x8,5".
 std::optional<CentreHole> read_designation(const Reader& r) {
   const auto text = r.as_text(40);
@@ -23,7 +18,7 @@ std::optional<CentreHole> read_designation(const Reader& r) {
       R"(\s*(?:(?:ISO\s*6411|DIN\s*332)\s*[-\s]\s*)?([A-Z])\s*(\d{1,4}(?:[.,]\d{1,4})?)\s*(?:/|[xX]|×)\s*(\d{1,4}(?:[.,]\d{1,4})?)\s*)");
   std::optional<CentreHole> found;
   if (const auto m = kForm.match(text))
-    found = part::centre_hole((*m)[1][0], number((*m)[2]), number((*m)[3]));
+    found = part::centre_hole((*m)[1][0], decimal((*m)[2]), decimal((*m)[3]));
   if (!found && !text.empty())
     r.problem(
         "a centre hole of ISO 6411's form A, B or R with its pilot's and its largest "
@@ -56,6 +51,11 @@ bool is_hollow(const part::Drawing& d, End end) {
 }
 
 }  // namespace
+
+double decimal(std::string digits) {
+  std::replace(digits.begin(), digits.end(), ',', '.');
+  return std::stod(digits);
+}
 
 void read_centre_holes(Draft& draft) {
   auto& d = draft.drawing();

@@ -274,13 +274,9 @@ std::optional<part::Undercut> read_undercut(const Reader& r) {
   const auto text = r.as_text(40);
   static const Pattern kForm(
       R"(\s*(?:DIN\s*509)?[\s-]*([A-Z])\s*(\d+(?:[.,]\d+)?)\s*(?:[xX]|×)\s*(\d+(?:[.,]\d+)?)\s*)");
-  const auto number = [](std::string digits) {
-    std::replace(digits.begin(), digits.end(), ',', '.');
-    return std::stod(digits);
-  };
   std::optional<part::Undercut> found;
   if (const auto m = kForm.match(text))
-    found = part::undercut((*m)[1][0], number((*m)[2]), number((*m)[3]));
+    found = part::undercut((*m)[1][0], decimal((*m)[2]), decimal((*m)[3]));
   if (!found && !text.empty())
     r.problem(
         "an undercut of DIN 509 with a radius and a depth of its table: of form E or F "

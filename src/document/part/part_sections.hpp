@@ -107,6 +107,9 @@ std::vector<NamedFeature> features(const part::Drawing& drawing);
 std::string checked_wall(const Reader& value, const part::Drawing& drawing,
                          std::string id);
 
+/// The number of digits with a decimal point or comma, as designations have it.
+double decimal(std::string digits);
+
 /// "limits_mm": deviations [lower, upper] of a size, lower < upper.
 part::Limits read_limits(Reader& r);
 

@@ -217,8 +217,7 @@ class Explanation {
     if (oracle_.limits()[limit].row->check == Check::chatter)
       return fmt::format(
           "{}: {} would come to {} times what is stable at best, with any clamping, "
-          "tools "
-          "and conditions allowed{}",
+          "tools and conditions allowed{}",
           c.where, c.limit, value, others.empty() ? "" : " that keep " + others);
     return fmt::format(
         "{}: {} would come to {} {} at best, with any clamping, tools and conditions "

@@ -12,12 +12,7 @@ const std::string kStart = "G99 G97 S500 M3\nG0 X20. Z5. F0.1\n";
 
 /// The ends that X has after the start, as the program writes them.
 std::vector<double> diameters(Control control, const std::string& text) {
-  const auto p = read(control, kStart + text);
-  expect_understood(p);
-  std::vector<double> all;
-  for (const auto& m : moves(p)) all.push_back(2 * m.x_mm);
-  all.erase(all.begin());
-  return all;
+  return diameters_after_start(control, kStart + text);
 }
 using All = std::vector<double>;
 
@@ -117,12 +112,7 @@ TEST(FanucPrograms, AreCalled) {
       "M30\nO1000 (GROOVE)\nG1 U-2.\nM99\nO2\nM98 P1000\nG0 U1.\nM99\n";
   const std::string main = "O1\n" + kStart;
   const auto ends = [&](Control control, const std::string& text) {
-    const auto p = read(control, main + text + subs);
-    expect_understood(p);
-    All all;
-    for (const auto& m : moves(p)) all.push_back(2 * m.x_mm);
-    all.erase(all.begin());
-    return all;
+    return diameters_after_start(control, main + text + subs);
   };
   EXPECT_EQ(ends(Control::fanuc, "M98 P1000 L3\nX30.\n"), (All{18, 16, 14, 30}));
   EXPECT_EQ(ends(Control::fanuc, "M98 P31000\n"), (All{18, 16, 14}));

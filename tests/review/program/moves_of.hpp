@@ -48,4 +48,25 @@ inline void expect_understood(const TurningProgram& p) {
     ADD_FAILURE() << u.line << ": " << u.what << ": " << u.why;
 }
 
+/// The ends that X has after the first move, as diameters, of a program that is understood.
+inline std::vector<double> diameters_after_start(Control control,
+                                                 const std::string& text) {
+  const auto p = read(control, text);
+  expect_understood(p);
+  std::vector<double> all;
+  for (const auto& m : moves(p)) all.push_back(2 * m.x_mm);
+  all.erase(all.begin());
+  return all;
+}
+
+/// ways() after the first move, of a program that is understood.
+inline std::vector<std::string> ways_after_start(Control control,
+                                                 const std::string& text) {
+  const auto p = read(control, text);
+  expect_understood(p);
+  auto all = ways(p);
+  all.erase(all.begin());
+  return all;
+}
+
 }  // namespace turnwright::review::test

@@ -13,20 +13,11 @@ using Ends = std::vector<double>;
 const std::string kOkuma = "G90 G95\nG97 S500 M3\nG0 X20 Z5 F0.1\n";
 
 Ends okuma_ends(const std::string& text) {
-  const auto p = read(Control::okuma, kOkuma + text);
-  expect_understood(p);
-  Ends all;
-  for (const auto& m : moves(p)) all.push_back(2 * m.x_mm);
-  all.erase(all.begin());
-  return all;
+  return diameters_after_start(Control::okuma, kOkuma + text);
 }
 
 std::vector<std::string> okuma_ways(const std::string& text) {
-  const auto p = read(Control::okuma, kOkuma + text);
-  expect_understood(p);
-  auto all = ways(p);
-  all.erase(all.begin());
-  return all;
+  return ways_after_start(Control::okuma, kOkuma + text);
 }
 
 TEST(OkumaExpressions, Reckon) {
@@ -74,12 +65,7 @@ TEST(OkumaPrograms, AreCalledWithTheirOwnVariables) {
       "M30\nOGRV (GROOVE)\nG91 G1 X=-DEP\nG90\nDEP=DEP+1\nV9=DEP\nRTS\n"
       "O100\nG1 X7\nCALL OGRV DEP=1\nRTS\n";
   const auto ends = [&](const std::string& text) {
-    const auto p = read(Control::okuma, "O1\n" + kOkuma + text + subs);
-    expect_understood(p);
-    Ends all;
-    for (const auto& m : moves(p)) all.push_back(2 * m.x_mm);
-    all.erase(all.begin());
-    return all;
+    return diameters_after_start(Control::okuma, "O1\n" + kOkuma + text + subs);
   };
   EXPECT_EQ(ends("DEP=50\nCALL OGRV DEP=2\nX=DEP\nX=V9\n"), (Ends{18, 50, 3}));
   EXPECT_EQ(ends("V2=3\nCALL OGRV Q2 DEP=V2*2\n"), (Ends{14, 8}));

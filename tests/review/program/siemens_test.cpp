@@ -17,21 +17,12 @@ const std::string kSiemens = "G18 G710 G90 G95 DIAMON\nG97 S500 M3\nG0 X20 Z5 F0
 
 /// The ends that X has after the start, as diameters.
 All ends_of_x(const std::string& text) {
-  const auto p = read(Control::siemens, kSiemens + text);
-  expect_understood(p);
-  All all;
-  for (const auto& m : moves(p)) all.push_back(2 * m.x_mm);
-  all.erase(all.begin());
-  return all;
+  return diameters_after_start(Control::siemens, kSiemens + text);
 }
 
 /// The moves after the start.
 Ways made_of(const std::string& text) {
-  const auto p = read(Control::siemens, kSiemens + text);
-  expect_understood(p);
-  auto all = ways(p);
-  all.erase(all.begin());
-  return all;
+  return ways_after_start(Control::siemens, kSiemens + text);
 }
 
 TEST(SiemensExpressions, ReckonInTheirRanks) {
@@ -110,12 +101,8 @@ TEST(SiemensFlow, Repeats) {
 TEST(SiemensPrograms, AreCalled) {
   const std::string main = "%_N_SHAFT_MPF\n;$PATH=/_N_WKS_DIR\n";
   const auto ends = [&](const std::string& text, const std::string& subs) {
-    const auto p = read(Control::siemens, main + kSiemens + text + "\nM30\n" + subs);
-    expect_understood(p);
-    All all;
-    for (const auto& m : moves(p)) all.push_back(2 * m.x_mm);
-    all.erase(all.begin());
-    return all;
+    return diameters_after_start(Control::siemens,
+                                 main + kSiemens + text + "\nM30\n" + subs);
   };
   EXPECT_EQ(ends("GROOVE\nG0 X30", "%_N_GROOVE_SPF\nG1 X=IC(-2)\nM17\n"), (All{18, 30}));
   EXPECT_EQ(ends("L100 P3", "%_N_L100_SPF\nG1 X=IC(-2)\nRET\nX99\n"), (All{18, 16, 14}));
