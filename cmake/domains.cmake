@@ -1,5 +1,7 @@
 # What each domain uses, floor by floor (floors.txt).
 tw_domain(base PRIVATE_LIBS Boost::headers Eigen3::Eigen)
+target_include_directories(turnwright_base PUBLIC  # base/say.hpp
+  $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>)
 
 tw_domain(optimise DEPENDS base PRIVATE_LIBS NLopt::nlopt_cxx Eigen3::Eigen)
 tw_domain(catalogue DEPENDS base PRIVATE_LIBS fmt::fmt)

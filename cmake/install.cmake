@@ -9,7 +9,7 @@ set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/turnwright)
 install(TARGETS turnwright COMPONENT program)
 install(TARGETS turnwright_library EXPORT turnwright
         LIBRARY COMPONENT library NAMELINK_COMPONENT development)
-set(data schemas materials tools machines shops parts)
+set(data schemas materials tools machines shops parts languages)
 install(DIRECTORY ${data} DESTINATION ${TURNWRIGHT_DATA_DIR} COMPONENT program)
 # What the Python package holds of it.
 install(FILES $<TARGET_FILE:turnwright_library> RENAME libturnwright.so

@@ -39,6 +39,7 @@
 #include "turnwright/base/errors.hpp"
 #include "turnwright/document/listen.hpp"
 #include "turnwright/document/nc.hpp"
+#include "turnwright/document/translations.hpp"
 
 namespace turnwright::app {
 namespace {
@@ -156,7 +157,7 @@ void write_programs(const fs::path& folder, const nc::Programs& programs,
   for (const auto& why : programs.cannot)
     std::cerr << "no NC program: " << visible(why) << '\n';
   if (files.empty() && programs.cannot.empty())
-    std::cerr << "no NC program: there is no feasible plan\n";
+    std::cerr << tr("no NC program: there is no feasible plan\n");
 }
 
 /// The file or folder to which an option writes.
@@ -255,7 +256,8 @@ void put_program(const nlohmann::ordered_json& result, const Arguments& argument
                        "a setup with a program: " + setups, "range");
   for (const auto& why : result["cannot"])
     std::cerr << "no NC program: " << visible(why.get<std::string>()) << '\n';
-  if (result["cannot"].empty()) std::cerr << "no NC program: there is no feasible plan\n";
+  if (result["cannot"].empty())
+    std::cerr << tr("no NC program: there is no feasible plan\n");
 }
 
 /// Whether the request is one of `learn`, whose table and part may be files of their own.
@@ -525,7 +527,33 @@ void refuse_unknown(const CLI::App& app) {
   }
 }
 
+/// The value of an option that counts before the others are read; `otherwise` without it.
+std::string early_option(int argc, char** argv, const std::string& option,
+                         std::string otherwise) {
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view word = argv[i];
+    if (word == option && i + 1 < argc) return argv[i + 1];
+    if (word.starts_with(option + '='))
+      return std::string(word.substr(option.size() + 1));
+  }
+  return otherwise;
+}
+
+/// Makes help, messages and reports speak the language of --language or TURNWRIGHT_LANGUAGE.
+void speak_as_asked(int argc, char** argv) {
+  const char* variable = std::getenv("TURNWRIGHT_LANGUAGE");
+  const auto language =
+      early_option(argc, argv, "--language", variable ? variable : "en");
+  if (language == "en") return;
+  const auto data = early_option(argc, argv, "--data", "");
+  speak(language, document::translations(
+                      document::data_folder(data.empty() ? std::nullopt
+                                                         : std::optional<fs::path>(data)),
+                      language));
+}
+
 int run(int argc, char** argv) {
+  speak_as_asked(argc, argv);
   CLI::App app(
       "Plans turned parts: certified cheapest conditions inside every tolerance.",
       "turnwright");
@@ -534,6 +562,9 @@ int run(int argc, char** argv) {
   Arguments arguments;
   app.fallthrough();
   add_path(app, "--data", arguments.data, "folder with materials/, tools/ and machines/");
+  std::string language;  // heard by speak_as_asked()
+  app.add_option("--language", language, "of help, messages and reports: en or de")
+      ->default_str("en");
   std::string examples =
       "Examples:\n  turnwright new\n  turnwright list parts\n"
       "  turnwright schema part\n"

@@ -288,29 +288,30 @@ std::string percent_text(double x) {
 }
 
 void warn(const PlaneAnswer& a, const ChuckRequest& q, json& warnings) {
-  const auto say = [&](const std::string& text) {
+  const auto remark = [&](const std::string& text) {
     warnings.push_back(a.name() + ": " + text);
   };
   for (const std::string& setup : a.can.one_force)
-    say("setup " + setup + " has one force, so its cuts say nothing of c0");
+    remark("setup " + setup + " has one force, so its cuts say nothing of c0");
   if (!a.fit) return;
   const PlaneFit& fit = *a.fit;
   if (fit.contradiction > kContradiction)
-    say("the cuts contradict every elastic chuck by " +
-        number_text(std::round(10 * std::sqrt(fit.contradiction)) / 10) +
-        " standard deviations; look for drift, wrong forces or a part that gave way");
+    remark("the cuts contradict every elastic chuck by " +
+           number_text(std::round(10 * std::sqrt(fit.contradiction)) / 10) +
+           " standard deviations; look for drift, wrong forces or a part that gave way");
   else if (fit.on_border)
-    say("the best elastic chuck has c1^2 = c0 c2; the cuts do not tell the three apart");
+    remark(
+        "the best elastic chuck has c1^2 = c0 c2; the cuts do not tell the three apart");
   double coarsest = 0;
   for (const PlaneTest& t : a.tests) {
     const Estimate e = predicted_deflection(fit, t.z_mm, t.F_N, t.C_Nmm);
     if (e.u > 0) coarsest = std::max(coarsest, e.u / std::max(std::abs(e.value), 1e-9));
   }
   if (coarsest > kCoarse)
-    say("predicted deflections at the cuts have standard errors up to " +
-        percent_text(coarsest) + "; most useful next: " + words(a.can.most_useful));
+    remark("predicted deflections at the cuts have standard errors up to " +
+           percent_text(coarsest) + "; most useful next: " + words(a.can.most_useful));
   if (q.Lc_mm && !springs(fit.root, *q.Lc_mm))
-    say("no three springs with this Lc_mm give this compliance");
+    remark("no three springs with this Lc_mm give this compliance");
 }
 
 json estimates(const PlaneFit& radial, const PlaneFit* tangential, const TestCut& at) {
