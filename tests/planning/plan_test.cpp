@@ -317,6 +317,22 @@ TEST(Plan, CompensatesOnlyWhereNoClampingDoesWithout) {
   EXPECT_EQ(held.setups[0].rejected[0].clamping, Clamping::chuck);
 }
 
+// What the table's straight lines leave between its places has its share of the limits.
+TEST(Plan, ACorrectedPathKeepsWhatARobustPlanPromises) {
+  int corrected = 0;
+  for (const double limit_mm : {0.02, 0.025, 0.03}) {
+    auto d = long_pin({"chuck"});
+    d["robust"] = true;
+    d["outer"][1]["limits_mm"] = {-limit_mm, limit_mm};
+    const auto r = certified_plan(d);
+    if (r.compensation.empty()) continue;
+    ++corrected;
+    for (const auto& t : r.tolerances)
+      EXPECT_GE(t.P_conform, 0.9973 - 1e-9) << limit_mm << " " << t.id;
+  }
+  EXPECT_EQ(corrected, 3);
+}
+
 // A size off its middle by much more than it varies: one number puts it right.
 TEST(Plan, AnOffsetCentresASizeBeforeAnythingGetsDearer) {
   auto d = long_pin({"chuck"});

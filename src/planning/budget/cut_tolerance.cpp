@@ -38,7 +38,7 @@ CutTolerance cut_tolerance(const PreparedPart& p, std::size_t index,
     if (centred && p.shop.edge_wear_mm > 0)
       d.lag = d.factor * p.shop.life_between_offsets / 2;
     if (offset == Offset::path) {
-      d.remainder = d.upper * share / 2;
+      d.remainder = remainder_mm(p, index, others) * share / 2;
       d.upper = left_mm(p, index, others, Cut::corrected);
     }
     d.upper *= share / 2;

@@ -23,6 +23,8 @@ using part::Tolerance;
 using part::ToleranceKind;
 using tolerance::Distribution;
 
+constexpr double kRemainder = 0.005;  // share of h that a corrected path may leave
+
 // Factor from an error of the radius to a size, or of a face to a length.
 double sensitivity(const PreparedPart& p, const Tolerance& t) {
   if (t.kind == ToleranceKind::diameter) return 2;
@@ -236,13 +238,20 @@ double largest(double most, const Suffices& suffices) {
   return low;
 }
 
+// h of (1) to (3).
+double reach_um(const PreparedPart& p, std::size_t tolerance,
+                const ToleranceAllocation& a) {
+  const double width = width_mm(p.drawing.tolerances[tolerance]);
+  return (units::um_from_mm(width) - fixed_in_parts_um(a)) / a.ends;
+}
+
 // (1) to (3), where this share of the parts may fail.
 double robust_left_mm(const PreparedPart& p, std::size_t tolerance,
                       const ToleranceAllocation& a, Cut cut, double may_fail) {
   const bool corrected = cut == Cut::corrected;
-  const double width = width_mm(p.drawing.tolerances[tolerance]);
-  const double h = (units::um_from_mm(width) - fixed_in_parts_um(a)) / a.ends;
-  if (!(h > 0)) return 0;
+  const double reach = reach_um(p, tolerance, a);
+  if (!(reach > 0)) return 0;
+  const double h = corrected ? (1 - kRemainder) * reach : reach;
   const double wanted = 1 - may_fail * std::min(1.0, 2 / a.ends);
   const double r = cut == Cut::none ? 0 : error_spread(p);
   const tolerance::Spread spread(a.spread);
@@ -349,6 +358,13 @@ double left_mm(const PreparedPart& p, std::size_t tolerance, const ToleranceAllo
   if (!p.robust)
     return std::max(0.0, width_mm(p.drawing.tolerances[tolerance]) - taken_mm(a));
   return robust_left_mm(p, tolerance, a, cut, (1 - p.conformance) * left_by_chatter(p));
+}
+
+double remainder_mm(const PreparedPart& p, std::size_t tolerance,
+                    const ToleranceAllocation& a) {
+  if (!p.robust) return left_mm(p, tolerance, a, Cut::corrected);
+  return units::mm_from_um(a.ends * kRemainder *
+                           std::max(0.0, reach_um(p, tolerance, a)));
 }
 
 double damping_share_mm(const PreparedPart& p, std::size_t tolerance,

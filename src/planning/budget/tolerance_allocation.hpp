@@ -134,10 +134,11 @@ enum class Cut { none, error, corrected };
 /// is half its range: (2) is then necessary and sufficient for P_conform >= p.  Without
 /// an offset E is the larger extreme, for which (2) is sufficient.  Uncertain forces and
 /// stiffness scale only the error that the offset does not remove, because the offset is
-/// set by gauging the first part, which shows the true middle.  With a corrected path
-/// only the uncertainty of the deflection E remains,
+/// set by gauging the first part, which shows the true middle.  With a corrected path the
+/// uncertainty of the deflection E remains, and between the places of its table a
+/// remainder d, for which h/200 is kept,
 ///
-///     P(|S + r E Z| <= h) = p                                                       (3)
+///     P(|S + r E Z| <= h - d) = p                                                   (3)
 ///
 /// p is `conformance`, or with uncertain damping (1 + conformance)/2.
 /// Where the cut has no part in the tolerance, E is the room that S leaves, (1) with
@@ -147,6 +148,11 @@ enum class Cut { none, error, corrected };
 /// @return ends E [mm]
 double left_mm(const PreparedPart& plan, std::size_t tolerance,
                const ToleranceAllocation& allocation, Cut cut);
+
+/// What a corrected path may leave of the deflection [mm]: ends d of (3), all the room of a
+/// nominal plan.
+double remainder_mm(const PreparedPart& plan, std::size_t tolerance,
+                    const ToleranceAllocation& allocation);
 
 /// Share of the width [mm] that uncertain limits of chatter take of a robust plan.
 double damping_share_mm(const PreparedPart& plan, std::size_t tolerance,

@@ -21,7 +21,7 @@
 namespace turnwright::planning {
 namespace {
 
-constexpr int kTable = 11;  // places of a correction
+constexpr int kTable = 33;  // places of a correction
 
 // Pieces of equal length through exact values at Chebyshev points.
 tolerance::PiecewisePolynomial through_exact(
