@@ -6,12 +6,13 @@
 
 namespace turnwright::planning {
 
-Order::Order(const PreparedPart& p, std::size_t setup, Clamping clamping, double front)
+Order::Order(const PreparedPart& p, std::size_t setup, Clamping clamping, double front,
+             Stage before)
     : p_(p),
       setup_(setup),
       clamping_(clamping),
       home_(home_of(p, front)),
-      force_N_(jaw_force_N(p, setup, clamping, Stage::roughing)) {}
+      force_N_(jaw_force_N(p, setup, clamping, before)) {}
 
 double Order::home_mm(bool inner) const { return inner ? home_.x_mm : home_.z_mm; }
 

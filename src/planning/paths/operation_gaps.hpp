@@ -30,7 +30,9 @@ struct InOrder {
 /// position before another tool, a stop or a milled place, and at the end.
 class Order {
  public:
-  Order(const PreparedPart& plan, std::size_t setup, Clamping clamping, double front_mm);
+  /// @param before  stage for which the jaws are tightened at the beginning
+  Order(const PreparedPart& plan, std::size_t setup, Clamping clamping, double front_mm,
+        Stage before = Stage::roughing);
   void add(const InOrder& operation);
   Between done();
 

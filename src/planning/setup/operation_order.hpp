@@ -8,7 +8,7 @@ namespace turnwright::planning {
 
 /// Place of a surface's operation in the order of a setup: faces first, then all
 /// roughing, all finishing, shoulders, and the bores in the same way.
-inline constexpr std::size_t kPlaces = 7;
+inline constexpr std::size_t kPlaces = 7, kFirstOfBores = 4;
 std::size_t place_in_setup(MachinedSurface::Kind kind, bool rough);
 
 /// The operations of a setup in the order of cutting: faces, centre hole and drilling,

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
+#include <ranges>
 
 #include "operation_order.hpp"
 #include "planning/auxiliary/catalogue_operations.hpp"
@@ -73,6 +73,8 @@ SetupPlanner::SetupPlanner(const PreparedPart& p, std::size_t setup, Clamping cl
       clamping_(clamping),
       economy_(economy),
       auxiliary_(auxiliary_work(p, setup, clamping, work, economy)),
+      auxiliary_min_(auxiliary_.minutes()),
+      auxiliary_edges_(auxiliary_.edges_cost()),
       front_mm_(front_mm(p, setup, work)),
       shared_(shared) {
   const auto& d = p.drawing;
@@ -102,6 +104,8 @@ SetupPlanner::SetupPlanner(const PreparedPart& p, std::size_t setup, Clamping cl
       return MachinedSurface::inner_shoulder(p, setup, clamping, work, before, i, fixed);
     });
   memory_.resize(jobs_.size());
+  choices_ = every_choice();
+  share_tools_ = may_share_tools();
   fit_turret();
 }
 
@@ -114,32 +118,55 @@ std::set<const Tool*> SetupPlanner::used(const Tools& tools) const {
   return all;
 }
 
-// Leaves the choices of tools for which the turret has stations; a conflict if there are
-// none.  Milled places have each the cutter that is best there: choices that would fit if
-// one did for all of them are not tried, but count in the lower bound.
+// Tools that the request wants on a surface, whatever is chosen.
+std::set<const Tool*> SetupPlanner::requested_tools() const {
+  std::set<const Tool*> all;
+  for (const auto& job : jobs_)
+    for (const Tool* t : {job.wanted.rough_tool, job.wanted.finish_tool})
+      if (t) all.insert(t);
+  return all;
+}
+
+// Counts the stations that the other operations of the setup leave; a conflict if they are
+// too few for any choice of tools.  Milled places have each the cutter that is best there:
+// choices that would fit if one did for all of them are not tried, but count in the lower
+// bound.
 void SetupPlanner::fit_turret() {
-  const auto all = every_choice();
   std::set<std::string> others, cutters;
   for (const auto& o : auxiliary_.all()) {
     others.insert(tool_label(p_, o.plan));
     if (o.plan.milled) cutters.insert(o.plan.tool);
   }
-  const auto stations = static_cast<std::size_t>(p_.machine.stations);
-  const auto spared = std::max<std::size_t>(cutters.size(), 1) - 1;
+  stations_ = p_.machine.stations - static_cast<long>(others.size());
+  spared_ = std::max(static_cast<long>(cutters.size()), 1L) - 1;
+  const auto requested = requested_tools();
+  if (static_cast<long>(requested.size() + kToolMembers.size()) <= stations_) return;
   std::set<const Tool*> fewest;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const auto own = used(all[i]);
+  bool any_fits = false;
+  const auto some = few_alike(choices_, requested);
+  for (std::size_t i = 0; i < some.size(); ++i) {
+    const auto own = used(some[i]);
     if (i == 0 || own.size() < fewest.size()) fewest = own;
-    const auto n = own.size() + others.size();
-    if (n <= stations)
-      choices_.push_back(all[i]);
-    else if (n - spared <= stations)
-      nearly_fitting_.push_back(all[i]);
+    const bool this_fits = static_cast<long>(own.size()) <= stations_;
+    any_fits = any_fits || this_fits;
+    left_out_ = left_out_ || !this_fits;
   }
-  left_out_ = choices_.size() < all.size();
-  if (!choices_.empty()) return;
+  if (any_fits) return;
   for (const auto* tool : fewest) others.insert(tool->id);
   auxiliary_.conflicts.push_back(too_few_stations(p_, setup_, others));
+}
+
+// Whether the turret has stations for a choice of tools, were it `spared` larger.
+bool SetupPlanner::fits(const Tools& tools, long spared) const {
+  return !left_out_ || static_cast<long>(used(tools).size()) <= stations_ + spared;
+}
+
+// The first of the choices that fits.
+std::optional<Tools> SetupPlanner::first_fitting(const ToolChoices& choices) const {
+  const auto some = left_out_ ? few_alike(choices, requested_tools()) : choices;
+  for (std::size_t i = 0; i < some.size(); ++i)
+    if (const auto tools = some[i]; fits(tools)) return tools;
+  return std::nullopt;
 }
 
 std::vector<Conflict> SetupPlanner::conflicts() const {
@@ -148,8 +175,41 @@ std::vector<Conflict> SetupPlanner::conflicts() const {
 
 double SetupPlanner::least_objective_of(const Tools& tools) {
   double bound = least_besides_cutting(tools);
-  for (std::size_t j = 0; j < jobs_.size(); ++j) bound += entry(j, tools).bound;
+  for (std::size_t j = 0; j < jobs_.size(); ++j) bound += entry(j, tools).at_least();
   return bound;
+}
+
+// The group of tools that decides what a job costs.
+std::size_t SetupPlanner::group_of(std::size_t j) const {
+  using enum MachinedSurface::Kind;
+  const auto kind = jobs_[j].feature.kind();
+  return kind == bore || kind == inner_shoulder ? 1 : 0;
+}
+
+// What each choice of a group costs at least in the jobs that it decides and between them.
+CheapestFirst::AllTerms SetupPlanner::terms() {
+  CheapestFirst::AllTerms all;
+  for (std::size_t group = 0; group < all.size(); ++group)
+    for (std::size_t i = 0; i < choices_.size(group); ++i) {
+      const auto tools = choices_.of_group(group, i);
+      double sum = least_between(group, tools);
+      for (std::size_t j = 0; j < jobs_.size(); ++j)
+        if (group_of(j) == group) sum += entry(j, tools).at_least();
+      all[group].emplace_back(sum, i);
+    }
+  return all;
+}
+
+CheapestFirst SetupPlanner::cheapest_first(CheapestFirst::AllTerms terms) {
+  return {choices_, std::move(terms), besides({}),
+          [this](std::size_t choice) -> std::optional<double> {
+            const auto tools = choices_[choice];
+            if (!fits(tools, spared_)) return std::nullopt;
+            const double least = least_objective_of(tools);
+            if (fits(tools)) return least;
+            nearly_fitting_ = std::min(nearly_fitting_, least);
+            return std::nullopt;
+          }};
 }
 
 std::vector<const MachinedSurface*> SetupPlanner::features() const {
@@ -159,72 +219,99 @@ std::vector<const MachinedSurface*> SetupPlanner::features() const {
 }
 
 SolvedSetup SetupPlanner::best(double most) {
-  std::vector<std::pair<double, Tools>> all;
-  for (const auto& tools : choices_) all.emplace_back(least_objective_of(tools), tools);
-  std::stable_sort(all.begin(), all.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  considered_.clear();
+  nearly_fitting_ = kInfinity;
   SolvedSetup best{setup_, clamping_, {}, {}, 0, kInfinity};
-  bool any = false;
   double bound = kInfinity;
   std::size_t chosen = 0;
-  std::vector<Considered> considered;
-  for (const auto& [least, tools] : all) {
-    if (least >= most && any) {
+  auto choices = cheapest_first(terms());
+  for (auto next = choices.next(); next; next = choices.next()) {
+    const auto [least, choice] = *next;
+    if (least >= most && !considered_.empty()) {
       bound = std::min(bound, least);
-      considered.push_back({tools, least});
-      continue;
+      break;
     }
-    auto s = solve(tools, least, most);
+    auto s = solve(choices_[choice], least, most);
     bound = std::min(bound, s.lower_bound);
-    considered.push_back(
-        {tools, s.feasible() ? s.objective : s.lower_bound, s.feasible()});
+    considered_.push_back(
+        {choice, s.feasible() ? s.objective : s.lower_bound, s.feasible()});
     const bool better =
         s.feasible() != best.feasible() ? s.feasible() : s.objective < best.objective;
-    if (!any || better) {
+    if (considered_.size() == 1 || better) {
       best = std::move(s);
-      nearest_ = tools;
-      chosen = considered.size() - 1;
+      nearest_ = choices_[choice];
+      chosen = considered_.size() - 1;
     }
-    any = true;
     if (best.feasible()) most = std::min(most, best.objective);
   }
-  for (const auto& tools : nearly_fitting_)
-    bound = std::min(bound, least_objective_of(tools));
-  best.lower_bound = bound;
-  if (best.feasible()) best.rejected_tools = rejected(considered, considered[chosen]);
+  if (considered_.empty()) {  // every choice is refuted
+    nearest_ = first_fitting(choices_).value_or(Tools{});
+    best = solve(nearest_, kInfinity, most);
+    best.lower_bound = nearly_fitting_;
+    return best;
+  }
+  best.lower_bound = std::min(bound, nearly_fitting_);
+  if (best.feasible()) best.rejected_tools = rejected(considered_[chosen]);
   return best;
 }
 
+// The least objective of the choices with this tool in a list; none if the turret has no
+// stations for any.
+std::optional<Considered> SetupPlanner::least_with(CheapestFirst::AllTerms terms,
+                                                   std::size_t list, const Tool* tool) {
+  const auto has = [&](const Tools& tools) { return tools.*kToolMembers[list] == tool; };
+  std::optional<Considered> least;
+  for (const auto& c : considered_)
+    if (has(choices_[c.choice]) && (!least || c.at_least < least->at_least)) least = c;
+  const auto group = ToolChoices::group_of(list);
+  std::erase_if(terms[group], [&](const auto& term) {
+    return !has(choices_.of_group(group, term.second));
+  });
+  auto choices = cheapest_first(std::move(terms));
+  for (auto next = choices.next(); next; next = choices.next()) {
+    if (least && next->first >= least->at_least) break;
+    const auto solved = std::ranges::find(considered_, next->second, &Considered::choice);
+    if (solved == considered_.end()) return Considered{next->second, next->first};
+  }
+  if (!least && first_fitting(with_only(choices_, list, tool)))
+    least = Considered{.at_least = kInfinity};
+  return least;
+}
+
 // Every tool of the request in every use of this setup for which it was not chosen.
-std::vector<RejectedTool> SetupPlanner::rejected(const std::vector<Considered>& all,
-                                                 const Considered& best) const {
+std::vector<RejectedTool> SetupPlanner::rejected(const Considered& best) {
   struct Use {
     ToolUse use;
     const char* name;
-    const Tool* Tools::*tool;
   };
-  constexpr std::array kUses{Use{ToolUse::facing, "facing", &Tools::face},
-                             Use{ToolUse::roughing, "roughing", &Tools::rough},
-                             Use{ToolUse::finishing, "finishing", &Tools::finish},
-                             Use{ToolUse::boring, "boring, rough", &Tools::bore_rough},
-                             Use{ToolUse::boring, "boring, finish", &Tools::bore_finish}};
+  constexpr std::array<Use, kToolMembers.size()> kUses{
+      {{ToolUse::facing, "facing"},
+       {ToolUse::roughing, "roughing"},
+       {ToolUse::finishing, "finishing"},
+       {ToolUse::boring, "boring, rough"},
+       {ToolUse::boring, "boring, finish"}}};
+  const auto all = terms();
   std::vector<RejectedTool> out;
-  for (const Use& u : kUses) {
-    const bool needed = std::any_of(all.begin(), all.end(), [&](const Considered& c) {
-      return c.tools.*u.tool != nullptr;
-    });
+  for (std::size_t list = 0; list < kUses.size(); ++list) {
+    const auto& u = kUses[list];
+    const auto& wanted = choices_.lists()[list];
+    const bool needed = std::ranges::any_of(wanted, [](const Tool* t) { return t; });
     for (const Tool& t : p_.tools) {
-      if (!needed || best.tools.*u.tool == &t ||
-          std::find(t.uses.begin(), t.uses.end(), u.use) == t.uses.end())
+      if (!needed || choices_[best.choice].*kToolMembers[list] == &t ||
+          std::ranges::find(t.uses, u.use) == t.uses.end())
         continue;
-      const Considered* least = nullptr;
-      for (const auto& c : all)
-        if (c.tools.*u.tool == &t && (!least || c.at_least < least->at_least)) least = &c;
       const bool cuts = std::ranges::find(t.groups, p_.material.group) != t.groups.end();
-      out.push_back(rejection(t, u.name, cuts, least, best));
+      const auto least = cuts ? least_with(all, list, &t) : std::nullopt;
+      out.push_back(rejection(t, u.name, cuts, least ? &*least : nullptr, best));
     }
   }
   return out;
+}
+
+void SetupPlanner::allow_compensation() {
+  compensate_ = !(p_.shop.edge_wear_mm > 0);
+  for (auto& of_job : memory_)
+    for (auto& [tools, e] : of_job) e.proved = 0;
 }
 
 bool SetupPlanner::can_be_made(const std::function<bool(const SurfaceTask&)>& makes) {
@@ -235,17 +322,31 @@ bool SetupPlanner::can_be_made(const std::function<bool(const SurfaceTask&)>& ma
     if (fresh) it->second = makes(task(j, tools, offset));
     return it->second;
   };
-  std::vector<std::size_t> every(jobs_.size());
-  std::iota(every.begin(), every.end(), 0);
-  return std::all_of(every.begin(), every.end(),
-                     [&](std::size_t j) {
-                       return std::any_of(choices_.begin(), choices_.end(),
-                                          [&](const Tools& t) { return made(j, t); });
-                     }) &&
-         std::any_of(choices_.begin(), choices_.end(), [&](const Tools& t) {
-           return std::all_of(every.begin(), every.end(),
-                              [&](std::size_t j) { return made(j, t); });
-         });
+  CheapestFirst::AllTerms makers;  // choices that make every job of a group, at no cost
+  for (std::size_t group = 0; group < makers.size(); ++group) {
+    const auto of_group = [&](std::size_t i) { return choices_.of_group(group, i); };
+    const auto indices = std::views::iota(std::size_t{0}, choices_.size(group));
+    for (std::size_t j = 0; j < jobs_.size(); ++j)
+      if (group_of(j) == group && std::ranges::none_of(indices, [&](std::size_t i) {
+            return made(j, of_group(i));
+          }))
+        return false;
+    for (const std::size_t i : indices) {
+      bool all = true;
+      for (std::size_t j = 0; all && j < jobs_.size(); ++j)
+        all = group_of(j) != group || made(j, of_group(i));
+      if (!all) continue;
+      makers[group].emplace_back(0, i);
+      if (!left_out_) break;
+    }
+  }
+  return CheapestFirst(choices_, std::move(makers), 0,
+                       [&](std::size_t choice) -> std::optional<double> {
+                         if (fits(choices_[choice])) return 0;
+                         return std::nullopt;
+                       })
+      .next()
+      .has_value();
 }
 
 SolvedSetup SetupPlanner::as_given(SurfaceAnswer (*answer)(const SurfaceTask&),
@@ -275,10 +376,9 @@ bool SetupPlanner::any(MachinedSurface::Kind kind) const {
 
 // Every combination of one tool for each use that the setup has; roughing, and what the
 // request leaves out, may do without.
-std::vector<Tools> SetupPlanner::every_choice() const {
-  using List = std::vector<const Tool*>;
+ToolChoices SetupPlanner::every_choice() const {
   const auto list = [&](bool wanted, ToolUse use, bool or_none) {
-    List tools = wanted ? tools_for(p_, use) : List{};
+    ToolList tools = wanted ? tools_for(p_, use) : ToolList{};
     if (tools.empty() || or_none) tools.push_back(nullptr);
     return tools;
   };
@@ -287,18 +387,11 @@ std::vector<Tools> SetupPlanner::every_choice() const {
              bores = any(MachinedSurface::Kind::bore);
   const bool faces = std::ranges::any_of(
       jobs_, [](const Job& j) { return j.feature.last_use() == ToolUse::facing; });
-  const auto face = list(faces, ToolUse::facing, false);
-  const auto rough = list(elements, ToolUse::roughing, elements);
-  const auto finish = list(elements, ToolUse::finishing, elements && given);
-  const auto bore_rough = list(bores, ToolUse::boring, bores);
-  const auto bore_finish = list(bores, ToolUse::boring, bores && given);
-  std::vector<Tools> all;
-  for (const auto* x : face)
-    for (const auto* r : rough)
-      for (const auto* f : finish)
-        for (const auto* br : bore_rough)
-          for (const auto* bf : bore_finish) all.push_back({x, r, f, br, bf});
-  return all;
+  return ToolChoices({list(faces, ToolUse::facing, false),
+                      list(elements, ToolUse::roughing, elements),
+                      list(elements, ToolUse::finishing, elements && given),
+                      list(bores, ToolUse::boring, bores),
+                      list(bores, ToolUse::boring, bores && given)});
 }
 
 // The tools of a job: roughing and finishing (or facing).
@@ -332,7 +425,9 @@ SurfaceTask SetupPlanner::task(std::size_t j, const Tools& tools, Offset offset)
   const auto& f = jobs_[j].feature;
   const auto [rough, finish] = tools_of(j, tools);
   const Making making{setup_, clamping_, finish ? finish : rough};
-  auto& unasked = shared_.unasked[{j, {rough, finish}, f.holding()}];
+  const auto clears = [&](const Tool* t) { return !t || f.clears_centre(*t); };
+  auto& unasked =
+      shared_.unasked[{j, {rough, finish}, f.holding(), clears(rough) && clears(finish)}];
   if (!unasked) unasked = std::make_shared<Unasked>();
   SurfaceTask t{f,
                 cut_tolerances_of(j, making.last, offset),
@@ -359,9 +454,19 @@ Entry& SetupPlanner::entry(std::size_t j, const Tools& tools) {
   return it->second;
 }
 
+// What is proved of a surface raises its bound, but for end faces: other clampings share
+// them, whose paths may be corrected.
 const SolvedSurface& SetupPlanner::solved(std::size_t j, const Tools& tools,
                                           double most) {
   auto& e = entry(j, tools);
+  const auto& s = solve_surface(e, j, tools, most);
+  if (jobs_[j].feature.kind() != MachinedSurface::Kind::end_face)
+    e.proved = std::max(e.proved, s.answer.lower_bound);
+  return s;
+}
+
+const SolvedSurface& SetupPlanner::solve_surface(Entry& e, std::size_t j,
+                                                 const Tools& tools, double most) {
   const auto settled = [&] {
     return e.solved && (e.solved->answer.feasible || most <= e.most);
   };
@@ -403,7 +508,7 @@ SolvedSetup SetupPlanner::solve(const Tools& tools, double least, double most) {
   for (std::size_t j = 0; j < jobs_.size(); ++j) {
     // One surface that cannot be made decides; the others are solved only to explain.
     if (!explain_ && !s.feasible()) break;
-    const double alone = entry(j, tools).bound;
+    const double alone = entry(j, tools).at_least();
     const double left = std::isfinite(most) ? most - (s.lower_bound - alone) : kInfinity;
     const auto& f = solved(j, tools, std::max(left, alone));
     s.features.push_back(f);
@@ -428,7 +533,7 @@ SolvedSetup SetupPlanner::solve(const Tools& tools, double least, double most) {
 
 // Where the request leaves it open, a roughing tool is brought in: plans that do not
 // use it are those of the choice without one.
-double SetupPlanner::least_besides_cutting(const Tools& tools) const {
+SetupPlanner::ToolOrder SetupPlanner::order_of(const Tools& tools) const {
   ToolOrder order(kPlaces, std::vector<const Tool*>(jobs_.size()));
   for (std::size_t j = 0; j < jobs_.size(); ++j) {
     const auto [r, f] = tools_of(j, tools);
@@ -436,15 +541,35 @@ double SetupPlanner::least_besides_cutting(const Tools& tools) const {
     order[place_in_setup(kind, false)][j] = f;
     if (!p_.operations && r) order[place_in_setup(kind, true)][j] = r;
   }
-  return besides(between(order));
+  return order;
 }
 
-// Centre hole and drilling come between the faces and the other operations.  A tool that
-// is used at a place of the order goes over all surfaces of that place, so that the tools
-// alone decide what lies between the operations.
-Between SetupPlanner::between(const ToolOrder& order) const {
-  Order all(p_, setup_, clamping_, front_mm_);
+double SetupPlanner::least_besides_cutting(const Tools& tools) const {
+  return besides(between(order_of(tools)));
+}
+
+// Whether a tool may be used outside and in bores.
+bool SetupPlanner::may_share_tools() const {
+  std::array<std::set<std::string>, ToolChoices::kGroups> ids;
+  for (std::size_t i = 0; i < kToolMembers.size(); ++i)
+    for (const Tool* t : choices_.lists()[i])
+      if (t) ids[ToolChoices::group_of(i)].insert(t->id);
+  for (std::size_t j = 0; j < jobs_.size(); ++j)
+    for (const Tool* t : {jobs_[j].wanted.rough_tool, jobs_[j].wanted.finish_tool})
+      if (t) ids[group_of(j)].insert(t->id);
+  for (const auto& o : auxiliary_.before) ids[0].insert(o.order.tool);
+  for (const auto& o : auxiliary_.after) ids[1].insert(o.order.tool);
+  return std::ranges::any_of(ids[0],
+                             [&](const std::string& id) { return ids[1].contains(id); });
+}
+
+// Adds the operations of a group in their order.  Centre hole and drilling come between the
+// faces and the other operations.  A tool that is used at a place of the order goes over all
+// surfaces of that place, so that the tools alone decide what lies between the operations.
+void SetupPlanner::add_group(std::size_t group, const ToolOrder& order,
+                             Order& all) const {
   for (std::size_t place = 0; place < order.size(); ++place) {
+    if ((place < kFirstOfBores) != (group == 0)) continue;
     if (place == 1)
       for (const auto& o : auxiliary_.before) all.add(o.order);
     const auto& tools = order[place];
@@ -460,8 +585,30 @@ Between SetupPlanner::between(const ToolOrder& order) const {
       if (t) all.add(feature.in_order(*t, place == 1 || place == 4));
     }
   }
-  for (const auto& o : auxiliary_.after) all.add(o.order);
+  if (group == 1)
+    for (const auto& o : auxiliary_.after) all.add(o.order);
+}
+
+Between SetupPlanner::between(const ToolOrder& order) const {
+  Order all(p_, setup_, clamping_, front_mm_);
+  for (std::size_t group = 0; group < ToolChoices::kGroups; ++group)
+    add_group(group, order, all);
   return all.done();
+}
+
+// A group between its own operations, from the tool change position and back.  Those of both
+// groups are what lies between all operations, unless one tool goes from the one to the
+// other: then nothing is counted.  Bores may begin with either force of the jaws.
+double SetupPlanner::least_between(std::size_t group, const Tools& tools) const {
+  if (share_tools_) return 0;
+  const auto order = order_of(tools);
+  const auto with = [&](Stage before) {
+    Order own(p_, setup_, clamping_, front_mm_, before);
+    add_group(group, order, own);
+    return besides(own.done()) - besides({});
+  };
+  return group == 0 ? with(Stage::roughing)
+                    : std::min(with(Stage::roughing), with(Stage::finishing));
 }
 
 Between SetupPlanner::between(const SolvedSetup& s) const {
@@ -478,9 +625,9 @@ Between SetupPlanner::between(const SolvedSetup& s) const {
 
 // In the terms of the objective, operations at fixed conditions included.
 double SetupPlanner::besides(const Between& between) const {
-  return economy_.minute * (besides_cutting(p_, clamping_, between).total().time_min +
-                            auxiliary_.minutes()) +
-         economy_.edge * auxiliary_.edges_cost();
+  return economy_.minute *
+             (besides_cutting(p_, clamping_, between).total().time_min + auxiliary_min_) +
+         economy_.edge * auxiliary_edges_;
 }
 
 }  // namespace turnwright::planning

@@ -41,6 +41,22 @@ TEST(CentreClearance, ACentreWithAShortPointLetsNoToolPass) {
       << told;
 }
 
+// What no tool can cut beside the centre is cut in the chuck alone, with any tools.
+TEST(CentreClearance, AChuckAloneNeedsNoToolThatClearsIt) {
+  const auto in = [](const std::vector<std::string>& clampings) {
+    auto d = pin();
+    d["setups"][0]["clampings"] = clampings;
+    d["tools"] = "all";
+    auto p = part(d);
+    p.machine.live_centre = {40, 35, 90};
+    return plan(p);
+  };
+  const auto alone = in({"chuck"}), both = in({"chuck-tailstock", "chuck"});
+  ASSERT_EQ(alone.status, PlanStatus::ok);
+  ASSERT_EQ(both.status, PlanStatus::ok);
+  EXPECT_NEAR(both.cost_per_part, alone.cost_per_part, 1e-9 * alone.cost_per_part);
+}
+
 // Between the two the tools that pass are chosen, and no program meets the centre.
 TEST(CentreClearance, ASlenderPointNeverCostsMore) {
   auto p = supported();
