@@ -13,12 +13,13 @@
 #include "planning/values/economy.hpp"
 #include "planning/values/surface_request.hpp"
 #include "solved_setup.hpp"
+#include "turnwright/base/language.hpp"
 
 /// The surfaces of one setup in one clamping, and the tools they share.
 namespace turnwright::planning {
 
 /// How conflicts name the stations of the turret, which are too few.
-inline constexpr const char* kStations = "stations of the turret";
+inline constexpr const char* kStations = to_translate("stations of the turret");
 
 /// The tools of a setup, one for each use.
 struct Tools {
