@@ -172,11 +172,10 @@ class Notation {
       if (two ? known(n.word.substr(0, bar), true) && known(n.word.substr(bar + 1), false)
               : known(n.word, n.face_too))
         continue;
-      mistakes_.add(
-          n.word,
-          say("an element of d1 to d{}{}{}", out_.outer.size(),
-              out_.inner.empty() ? "" : fmt::format(", b1 to b{}", out_.inner.size()),
-              n.face_too ? tr(", left, right, or two with | between") : ""));
+      mistakes_.add(n.word,
+                    say("an element of d1 to d{}{}{}", out_.outer.size(),
+                        out_.inner.empty() ? "" : say(", b1 to b{}", out_.inner.size()),
+                        n.face_too ? tr(", left, right, or two with | between") : ""));
     }
   }
 

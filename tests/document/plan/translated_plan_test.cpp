@@ -74,7 +74,7 @@ TEST_F(TranslatedPlan, ExplainsAnInfeasiblePartInGermanWithTheSameNumbersAndLimi
 }
 
 TEST_F(TranslatedPlan, OfAFeasiblePartHasTheSameNumbers) {
-  const auto part = "parts/bearing-seat.json";
+  const auto part = "parts/aluminium-tube.json";
   const auto english = plan_in("en", part);
   const auto german = plan_in("de", part);
   ASSERT_EQ(english["status"], "ok");
