@@ -7,14 +7,14 @@ tw_domain(optimise DEPENDS base PRIVATE_LIBS NLopt::nlopt_cxx Eigen3::Eigen)
 tw_domain(catalogue DEPENDS base PRIVATE_LIBS fmt::fmt)
 tw_domain(part DEPENDS base PRIVATE_LIBS fmt::fmt)
 
-tw_domain(cutting DEPENDS base catalogue optimise PRIVATE_LIBS Eigen3::Eigen)
+tw_domain(cutting DEPENDS base catalogue optimise PRIVATE_LIBS Eigen3::Eigen fmt::fmt)
 tw_domain(deflection DEPENDS base part PRIVATE_LIBS Eigen3::Eigen fmt::fmt)
-tw_domain(thermal DEPENDS base optimise PRIVATE_LIBS Eigen3::Eigen)
+tw_domain(thermal DEPENDS base optimise PRIVATE_LIBS Eigen3::Eigen fmt::fmt)
 tw_domain(gcode DEPENDS base catalogue PRIVATE_LIBS fmt::fmt)
 tw_domain(toolpath DEPENDS base catalogue)
 tw_domain(exchange DEPENDS base part PRIVATE_LIBS fmt::fmt Eigen3::Eigen)
 tw_domain(learning DEPENDS base PRIVATE_LIBS Boost::headers Eigen3::Eigen)
-tw_domain(chatter DEPENDS base PRIVATE_LIBS Boost::headers Eigen3::Eigen)
+tw_domain(chatter DEPENDS base PRIVATE_LIBS Boost::headers Eigen3::Eigen fmt::fmt)
 # Products of complex numbers without the search for infinities that C99's Annex G wants;
 # sums keep their order.
 target_compile_options(turnwright_chatter PRIVATE

@@ -4,6 +4,7 @@
 #include <array>
 #include <stdexcept>
 
+#include "base/say.hpp"
 #include "turnwright/catalogue/tool_codes.hpp"
 
 namespace turnwright::catalogue {
@@ -35,20 +36,19 @@ std::string_view Designation::take(std::size_t count) {
   at_ += symbol.size();
   ++number_;
   last_ = symbol;
-  if (symbol.size() != count) fail("is missing");
+  if (symbol.size() != count) fail(tr("is missing"));
   return symbol;
 }
 
 char Designation::take_one_of(std::string_view letters) {
   const char c = take(1).front();
-  if (letters.find(c) == std::string_view::npos)
-    fail("must be one of " + std::string(letters));
+  if (letters.find(c) == std::string_view::npos) fail(say("must be one of {}", letters));
   return c;
 }
 
 int Designation::take_two_digits() {
   const auto s = take(2);
-  if (!is_digit(s[0]) || !is_digit(s[1])) fail("must be two digits");
+  if (!is_digit(s[0]) || !is_digit(s[1])) fail(tr("must be two digits"));
   return 10 * (s[0] - '0') + (s[1] - '0');
 }
 
@@ -61,9 +61,8 @@ bool Designation::point_follows() const {
 }
 
 void Designation::fail(const std::string& rule) const {
-  throw std::domain_error(std::string(function_) + ": \"" + text_ + "\": symbol " +
-                          std::to_string(number_) + " (\"" + std::string(last_) + "\") " +
-                          rule);
+  throw std::domain_error(
+      say("{}: \"{}\": symbol {} (\"{}\") {}", function_, text_, number_, last_, rule));
 }
 
 }  // namespace turnwright::catalogue

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "base/say.hpp"
 #include "designation.hpp"
 #include "turnwright/base/units.hpp"
 #include "turnwright/catalogue/tool_codes.hpp"
@@ -62,10 +63,10 @@ double edge_mm(const Shape& shape, int code, const Designation& reader) {
   for (const double circle : kCircles_mm) {
     const double edge = circle * shape.edge_per_circle;
     if (edge_code(edge) != code) continue;
-    if (found) reader.fail("fits more than one inscribed circle of this shape");
+    if (found) reader.fail(tr("fits more than one inscribed circle of this shape"));
     found = edge;
   }
-  if (!found) reader.fail("fits no inscribed circle of this shape");
+  if (!found) reader.fail(tr("fits no inscribed circle of this shape"));
   return *found;
 }
 
@@ -73,7 +74,7 @@ double thickness_mm(std::string_view code, const Designation& reader) {
   const auto at = std::find(kThicknessCodes.begin(), kThicknessCodes.end(), code);
   if (at != kThicknessCodes.end())
     return kThickness_mm[static_cast<std::size_t>(at - kThicknessCodes.begin())];
-  reader.fail("is no thickness of the standard");
+  reader.fail(tr("is no thickness of the standard"));
 }
 
 constexpr double kRounded_mm = 0.06;  // makers print edges and thicknesses to 0.1 mm
@@ -116,10 +117,10 @@ Insert1832 take_letters(Designation& reader) {
   Insert1832 insert;
   insert.shape = reader.take(1).front();
   const auto shape = shape_of(insert.shape);
-  if (!shape) reader.fail("must be one of CDEHMOPRSTVW");
+  if (!shape) reader.fail(say("must be one of {}", "CDEHMOPRSTVW"));
   insert.included_angle_deg = shape->included_angle_deg;
   const auto clearance = clearance_of_letter_deg(reader.take(1).front());
-  if (!clearance) reader.fail("must be one of ABCDEFGNP");
+  if (!clearance) reader.fail(say("must be one of {}", "ABCDEFGNP"));
   insert.clearance_deg = *clearance;
   insert.tolerance_class = reader.take_one_of("ACEFGHJKLMNU");
   insert.type = reader.take_one_of("ABCFGHJMNQRTUWX");
@@ -155,16 +156,16 @@ Insert1832 decode_iso1832(const std::string& designation) {
   if (insert.shape == 'R') {
     const auto corner = reader.take(2);
     if (corner != "M0" && corner != "00")
-      reader.fail("must be M0 (metric diameter) or 00 (inch diameter)");
+      reader.fail(tr("must be M0 (metric diameter) or 00 (inch diameter)"));
     insert.edge_length_mm =
         corner == "M0" ? edge_code : edge_mm(*shape, edge_code, at_edge);
-    if (!(insert.edge_length_mm > 0)) at_edge.fail("must be a diameter above 0 mm");
+    if (!(insert.edge_length_mm > 0)) at_edge.fail(tr("must be a diameter above 0 mm"));
     insert.re_mm = insert.edge_length_mm / 2;
   } else {
     insert.edge_length_mm = edge_mm(*shape, edge_code, at_edge);
     insert.re_mm = reader.take_two_digits() / 10.0;
   }
-  if (reader.digit_follows()) reader.fail("is followed by one digit too many");
+  if (reader.digit_follows()) reader.fail(tr("is followed by one digit too many"));
   return insert;
 }
 
@@ -189,7 +190,7 @@ Insert1832 decode_inch_insert(const std::string& designation) {
   insert.thickness_mm = take_quarters(reader) * kInch_mm / 16;
   insert.re_mm = (reader.take_one_of("0123468") - '0') * kInch_mm / 64;
   if (reader.digit_follows() || reader.point_follows())
-    reader.fail("is followed by one digit too many");
+    reader.fail(tr("is followed by one digit too many"));
   const double corner_mm = insert.re_mm;
   insert = decode_iso1832(encode_iso1832(insert));
   insert.re_mm = corner_mm;

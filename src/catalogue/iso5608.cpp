@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "base/say.hpp"
 #include "designation.hpp"
 #include "turnwright/catalogue/tool_codes.hpp"
 
@@ -34,7 +35,7 @@ double take_kapr_deg(Designation& reader) {
 
 double take_clearance_deg(Designation& reader) {
   const auto clearance = clearance_of_letter_deg(reader.take(1).front());
-  if (!clearance) reader.fail("must be one of ABCDEFGNP");
+  if (!clearance) reader.fail(say("must be one of {}", "ABCDEFGNP"));
   return *clearance;
 }
 
@@ -99,7 +100,7 @@ Bar5609 decode_iso5609(const std::string& designation) {
   Bar5609 bar;
   bar.shank = reader.take_one_of("ASE");
   bar.diameter_mm = reader.take_two_digits();
-  if (!(bar.diameter_mm > 0)) reader.fail("must be a diameter above 0 mm");
+  if (!(bar.diameter_mm > 0)) reader.fail(tr("must be a diameter above 0 mm"));
   bar.length_mm = take_length_mm(reader, "X");
   take_head(reader, bar);
   bar.edge_code = reader.take_two_digits();

@@ -10,6 +10,7 @@
 
 #include "safe_cuts.hpp"
 #include "turnwright/base/cancelled.hpp"
+#include "turnwright/base/language.hpp"
 #include "turnwright/chatter/limits.hpp"
 #include "turnwright/chatter/reference_methods.hpp"
 
@@ -59,7 +60,7 @@ ChartPoint judged(const ChartRequest& q, const OperatingPoint& p,
 }
 
 constexpr const char* kUndecidedAbove =
-    "stable up to stable_to_mm; the search above takes too long";
+    to_translate("stable up to stable_to_mm; the search above takes too long");
 
 /// Searches at speeds or points, one after the other.
 class Attempts {
@@ -90,7 +91,7 @@ class Attempts {
 
   /// Notes that the i-th is stable up to a depth and undecided above it.
   void undecided_above(std::size_t i, const OperatingPoint& asked, double stable_to_mm) {
-    undecided_[i] = {i, asked, kUndecidedAbove, 0, stable_to_mm};
+    undecided_[i] = {i, asked, tr(kUndecidedAbove), 0, stable_to_mm};
   }
 
   /// The undecided ones in the order of the request.

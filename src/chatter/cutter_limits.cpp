@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/say.hpp"
 #include "chatter/collocation/characteristic_interpolant.hpp"
 #include "chatter/collocation/delay_map.hpp"
 #include "chatter/fundamental_matrix/stability_crossings.hpp"
@@ -120,7 +121,7 @@ class Ascent {
  private:
   void spend(double work) {
     left_ -= work;
-    if (left_ < 0) throw TooManyVibrations(kTooLong);
+    if (left_ < 0) throw TooManyVibrations(tr(kTooLong));
   }
 
   // At the ends of a range ends of engagement may coincide, so that pieces vanish;
@@ -133,7 +134,7 @@ class Ascent {
     const DelayMap::Range range{from, to};
     const double most =
         kSamples * DelayMap(cutter_, n_rpm_, to - least, range, kPlain).work();
-    if (most > left_ / 2) throw TooManyVibrations(kTooLong);
+    if (most > left_ / 2) throw TooManyVibrations(tr(kTooLong));
     const auto beside = [&](double w) {
       const DelayMap map(cutter_, n_rpm_, std::clamp(w, from + least, to - least), range,
                          kPlain);
@@ -159,9 +160,9 @@ class Ascent {
     }
     if (narrow)
       throw ModelRangeError(
-          "milling: the stability of this cutter near a depth of " +
-          std::to_string(from) +
-          " mm cannot be decided; ask for a smaller ap_max_mm or a higher speed");
+          say("milling: the stability of this cutter near a depth of {:f} mm cannot be "
+              "decided; ask for a smaller ap_max_mm or a higher speed",
+              from));
     const double middle = from + 0.49 * (to - from);
     climb(from, middle);
     climb(middle, to);
@@ -200,8 +201,9 @@ class Ascent {
     return true;
   }
 
-  static constexpr const char* kTooLong =
-      "milling: the search takes too long; ask for a smaller ap_max_mm or a higher speed";
+  static constexpr const char* kTooLong = to_translate(
+      "milling: the search takes too long; ask for a smaller ap_max_mm or a higher "
+      "speed");
   const Cutter& cutter_;
   double n_rpm_, ap_max_, left_, searched_ = 0;  // operations left
   std::vector<OnCircle> zeros_;

@@ -14,6 +14,7 @@
 #include "chatter/model/quadrature.hpp"
 #include "turnwright/base/cancelled.hpp"
 #include "turnwright/base/errors.hpp"
+#include "turnwright/base/language.hpp"
 #include "turnwright/base/units.hpp"
 
 namespace turnwright::chatter {
@@ -128,10 +129,10 @@ class VariedMap {
     const double slowest_turn_s = 60 / (n_rpm * (1 - rva));
     const double count = std::ceil(fastest * slowest_turn_s / kTurn);
     if (count * period_ > kMostSpans)
-      throw TooManyVibrations(
+      throw TooManyVibrations(tr(
           "turning: a period of the speed's variation holds too many vibrations; ask for "
           "a "
-          "higher speed or frequency of variation");
+          "higher speed or frequency of variation"));
     for (double i = 0; i <= count; ++i) breaks_.push_back(i / count);
     const double end = period_ - std::floor(period_);
     const auto near = [&](double b) { return std::abs(b - end) < 1e-9; };

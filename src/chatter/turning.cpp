@@ -9,6 +9,7 @@
 #include "chatter/model/engagement.hpp"
 #include "turnwright/base/cancelled.hpp"
 #include "turnwright/base/dual.hpp"
+#include "turnwright/base/language.hpp"
 #include "turnwright/base/units.hpp"
 
 namespace turnwright::chatter {
@@ -101,9 +102,9 @@ class FrequencySearch {
     for (long pieces = 0; !left_.empty(); ++pieces) {
       leave_if_asked();
       if (pieces > kMostPieces)
-        throw TooManyVibrations(
+        throw TooManyVibrations(tr(
             "milling: a revolution holds too many vibrations; ask for a higher speed or "
-            "a smaller depth");
+            "a smaller depth"));
       const Piece piece = left_.back();
       left_.pop_back();
       settle(piece);

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "turnwright/base/errors.hpp"
+#include "turnwright/base/language.hpp"
 #include "turnwright/base/least_squares.hpp"
 
 namespace turnwright::cutting {
@@ -104,7 +105,7 @@ CensoredLine censored_line(const MatrixXd& X, const VectorXd& y,
   const MatrixXd Xk = X(known, Eigen::all);
   const auto start = least_squares(Xk, y(known));
   if (start.rank < p || r <= p)
-    throw ModelRangeError("censored_line: the known values do not determine a line");
+    throw ModelRangeError(tr("censored_line: the known values do not determine a line"));
   const VectorXd rest = y - X * start.x;
   const auto degrees = static_cast<double>(r - p);
   const double s0 = std::max(kLeast_s, std::sqrt(rest(known).squaredNorm() / degrees));

@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 
+#include "base/say.hpp"
 #include "censored_line.hpp"
 #include "life_design.hpp"
 
@@ -49,11 +50,12 @@ Determined determined(const LifeRows& ended, double given_a,
     append(ended.f);
   } else {
     X.col(X.cols() - 1) += given_a * ended.f;
-    missing.push_back({"a", "a tool life at another feed, speed unchanged"});
+    missing.push_back({"a", tr("a tool life at another feed, speed unchanged")});
   }
   d.b = spread(X, ended.d) >= kLeastSpread;
   if (!d.b)
-    missing.push_back({"b", "a tool life at another depth, speed and feed unchanged"});
+    missing.push_back(
+        {"b", tr("a tool life at another depth, speed and feed unchanged")});
   return d;
 }
 
@@ -111,17 +113,20 @@ TaylorFit fit_taylor(std::span<const LifePoint> lives, double given_a, double gi
     return fit;
   };
   if (ended.size() == 0 && all.size() > 0)
-    return nothing("tool lives that ended, at two cutting speeds");
+    return nothing(tr("tool lives that ended, at two cutting speeds"));
   const Determined d = determined(ended, given_a, fit.missing);
-  if (!d.n) return nothing("a tool life at another cutting speed");
+  if (!d.n) return nothing(tr("a tool life at another cutting speed"));
   const LabColumns labs = lab_columns(rows.lab);
   const MatrixXd columns = life_columns(rows, d.a, d.b, given_a, given_b);
   MatrixXd X(rows.size(), labs.X.cols() + columns.cols());
   X << labs.X, columns;
   if (ended.size() < X.cols() + 1)
     return nothing(
-        std::string("as many tool lives ") + (rows.censored() ? "that ended " : "") +
-        "as there are constants and one more: " + std::to_string(X.cols() + 1));
+        rows.censored()
+            ? say("as many tool lives that ended as there are constants and one more: {}",
+                  X.cols() + 1)
+            : say("as many tool lives as there are constants and one more: {}",
+                  X.cols() + 1));
 
   Line line = life_line(X, rows, options.outlier_p, fit.evidence);
   const Index slope = labs.X.cols();
@@ -129,8 +134,8 @@ TaylorFit fit_taylor(std::span<const LifePoint> lives, double given_a, double gi
   if (!(line.c[slope] + t * std::sqrt(line.covariance(slope, slope)) < 0)) {
     fit.evidence.rename(names);
     return nothing(
-        "tool lives at speeds further apart, for the life does not fall with "
-        "the speed beyond doubt");
+        tr("tool lives at speeds further apart, for the life does not fall with "
+           "the speed beyond doubt"));
   }
   if (labs.several()) line = with_labs(line, labs, columns, rows, options, fit);
   constants_of(line, d, t, fit);

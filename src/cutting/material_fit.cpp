@@ -5,6 +5,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "base/say.hpp"
 #include "pooled_labs.hpp"
 #include "regression.hpp"
 #include "turnwright/base/errors.hpp"
@@ -58,15 +59,15 @@ KienzleFit fit_kienzle(std::span<const ForcePoint> cuts, const FitOptions& optio
     for (const char* name : {"k1.1", "m"}) fit.missing.push_back({name, test});
     return fit;
   };
-  const char* another = "a cut at another chip thickness (another feed)";
+  const auto another = tr("a cut at another chip thickness (another feed)");
   if (n == 0 || x.maxCoeff() - x.minCoeff() < kLeastThickness) return nothing(another);
   const LabColumns labs = lab_columns(lab_of_row);
   const auto k = labs.X.cols();
   if (n < k + 2)
-    return nothing(k == 1 ? "a third cut, to judge the errors by"
-                          : "as many cuts as there are labs and two more");
+    return nothing(k == 1 ? tr("a third cut, to judge the errors by")
+                          : tr("as many cuts as there are labs and two more"));
   if (labs.several() && spread(labs.X, x) < kLeastThickness / 2)
-    return nothing(std::string(another) + " in the same lab");
+    return nothing(say("{} in the same lab", another));
   MatrixXd X(n, k + 1);
   X << labs.X, x;
   Line line = robust_line(X, y, options.outlier_p, fit.evidence);

@@ -8,6 +8,7 @@
 
 #include "turnwright/base/distributions.hpp"
 #include "turnwright/base/errors.hpp"
+#include "turnwright/base/language.hpp"
 #include "turnwright/base/least_squares.hpp"
 
 namespace turnwright::cutting {
@@ -29,7 +30,7 @@ struct Regression {
   Regression(const MatrixXd& X, const VectorXd& y) {
     const auto solved = least_squares(X, y);
     if (solved.rank < X.cols())
-      throw ModelRangeError("material_fit: the cuts do not tell the exponents apart");
+      throw ModelRangeError(tr("material_fit: the cuts do not tell the exponents apart"));
     c = solved.x;
     inverse = solved.root * solved.root.transpose();
     residual = y - X * c;
@@ -123,7 +124,7 @@ Estimate ratio(const Line& line, Index i, Index j, double t) {
 Estimate exponential(const Estimate& e) {
   const Estimate out{std::exp(e.value), std::exp(e.lower), std::exp(e.upper)};
   if (!std::isfinite(out.upper))
-    throw ModelRangeError("material_fit: the cuts scatter beyond every bound");
+    throw ModelRangeError(tr("material_fit: the cuts scatter beyond every bound"));
   return out;
 }
 

@@ -11,6 +11,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "base/say.hpp"
 #include "turnwright/base/least_squares.hpp"
 #include "turnwright/base/random.hpp"
 
@@ -610,29 +611,32 @@ Identifiability identifiability(std::span<const PlaneTest> tests, Plane plane) {
 }
 
 std::string words(const MissingTest& missing) {
-  const std::string which = missing.ordinal == 2   ? "a second "
-                            : missing.ordinal == 3 ? "a third "
-                                                   : "another ";
+  const bool second = missing.ordinal == 2, third = missing.ordinal == 3;
+  const auto& setup = missing.setup;
   switch (missing.kind) {
     case MissingTest::Kind::force:
-      return "a cut at another force in setup " + missing.setup;
+      return say("a cut at another force in setup {}", setup);
     case MissingTest::Kind::position:
-      return "a cut at " + which + "z in setup " + missing.setup;
+      return second  ? say("a cut at a second z in setup {}", setup)
+             : third ? say("a cut at a third z in setup {}", setup)
+                     : say("a cut at another z in setup {}", setup);
     case MissingTest::Kind::couple:
       break;
   }
-  return "a cut with " + which + "D or Fa/Fr ratio in setup " + missing.setup;
+  return second  ? say("a cut with a second D or Fa/Fr ratio in setup {}", setup)
+         : third ? say("a cut with a third D or Fa/Fr ratio in setup {}", setup)
+                 : say("a cut with another D or Fa/Fr ratio in setup {}", setup);
 }
 
 std::string words(const NullDirection& direction) {
   std::string text;
   const auto add = [&text](const std::string& name) {
-    text += (text.empty() ? "" : " with ") + name;
+    text = text.empty() ? name : say("{} with {}", text, name);
   };
   const std::array<const char*, 3> names{"c0", "c1", "c2"};
   for (std::size_t j = 0; j < 3; ++j)
     if (std::abs(direction.weight[j]) > kNoRank) add(names[j]);
-  if (direction.moves_offsets) add("the setups' offsets");
+  if (direction.moves_offsets) add(tr("the setups' offsets"));
   return text;
 }
 

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "base/say.hpp"
 #include "turnwright/base/distributions.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/base/least_squares.hpp"
@@ -251,8 +252,7 @@ DeviationGraph described(const Graph& g, int degree, const Places& places) {
   const auto [rank, a, root] = least_squares(X, g.e);
   if (rank < X.cols())
     throw ModelRangeError(
-        "chuck: the graph's places do not tell a polynomial of degree " +
-        std::to_string(degree));
+        say("chuck: the graph's places do not tell a polynomial of degree {}", degree));
   const VectorXd r = g.e - X * a;
   const Index powers = degree + 1;
   DeviationGraph out;

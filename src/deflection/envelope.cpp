@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "turnwright/base/errors.hpp"
+#include "turnwright/base/language.hpp"
 #include "turnwright/base/units.hpp"
 
 namespace turnwright::deflection {
@@ -88,8 +89,8 @@ Envelope envelope(std::span<const double> ends_mm, const ErrorOnSegment& error) 
     if (!halved) break;
     if (panels.size() > kPanels + ends_mm.size())
       throw ModelRangeError(
-          "the error changes too quickly along the part for its largest value to be "
-          "found");
+          tr("the error changes too quickly along the part for its largest value to be "
+             "found"));
     for (const Panel& p : panels) sampled = std::max(sampled, largest(p));
   }
 

@@ -1,12 +1,11 @@
 #include "turnwright/deflection/feedback.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <utility>
 
+#include "base/say.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/base/root.hpp"
 
@@ -33,9 +32,9 @@ double above(const Balance& g) {
   while (!(g.value(h) >= 0)) {
     h *= 1.05;
     if (!(h <= 100 * g.ap))
-      throw ModelRangeError(fmt::format(
-          "the feed force pulls the part into the tool without end: loop gain {:f}",
-          g.A * g.c * g.x * std::pow(g.ap, g.x - 1)));
+      throw ModelRangeError(
+          say("the feed force pulls the part into the tool without end: loop gain {:f}",
+              g.A * g.c * g.x * std::pow(g.ap, g.x - 1)));
   }
   return h;
 }

@@ -1,13 +1,12 @@
 #include "turnwright/gcode/nc_writer.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
 
+#include "base/say.hpp"
 #include "turnwright/base/errors.hpp"
 
 namespace turnwright::gcode {
@@ -76,8 +75,8 @@ double NcWriter::append(double value, int decimals) {
   const double scale = power(decimals);
   const double scaled = std::abs(value) * scale + 0.5;
   if (!(scaled < 9e15))
-    throw ModelRangeError(fmt::format(
-        "compensate: a corrected coordinate of {:f}, too far to be written", value));
+    throw ModelRangeError(
+        say("compensate: a corrected coordinate of {:f}, too far to be written", value));
   std::array<char, 24> text;
   const auto whole = static_cast<std::uint64_t>(scaled);
   const bool negative = value < 0 && whole > 0;

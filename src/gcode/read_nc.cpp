@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "base/say.hpp"
 #include "turnwright/base/cancelled.hpp"
 
 namespace turnwright::gcode {
@@ -63,7 +64,7 @@ void parse(std::string_view line, Block& block) {
     }
     if (line[i] == '(') {
       const auto end = line.find(')', i);
-      if (end == line.npos) throw Fault{"( without )", "comments that end"};
+      if (end == line.npos) throw Fault{tr("( without )"), tr("comments that end")};
       block.comments += line.substr(i, end + 1 - i);
       i = end + 1;
       continue;
@@ -73,7 +74,7 @@ void parse(std::string_view line, Block& block) {
     if (letter >= 'a' && letter <= 'z') letter = static_cast<char>(letter - 'a' + 'A');
     if (letter < 'A' || letter > 'Z')
       throw Fault{quoted(line.substr(start), 1),
-                  "words of a letter and a number; no variables or expressions"};
+                  tr("words of a letter and a number; no variables or expressions")};
     while (i < line.size() && blank(line[i])) ++i;
     if (i + 1 < line.size() && line[i] == '+' && line[i + 1] != '-') ++i;
     double value = 0;
@@ -81,7 +82,7 @@ void parse(std::string_view line, Block& block) {
                                               value, std::chars_format::fixed);
     if (error != std::errc() || !(std::abs(value) <= 1e6))
       throw Fault{quoted(line.substr(start), 12),
-                  std::string("a number after ") + letter + ", at most 1e6"};
+                  say("a number after {}, at most 1e6", letter)};
     i = static_cast<std::size_t>(end - line.data());
     block.words.push_back({letter, value, line.substr(start, i - start)});
   }
@@ -107,7 +108,7 @@ constexpr auto kGroups = [] {
 /// A code's or offset's number.  Throws Fault.
 int whole(const Word& w) {
   if (!(w.value >= 0) || w.value != std::floor(w.value))
-    throw Fault{std::string(w.text), std::string("a whole number after ") + w.letter};
+    throw Fault{std::string(w.text), say("a whole number after {}", w.letter)};
   return static_cast<int>(w.value);
 }
 
@@ -117,9 +118,10 @@ int code(const Word& w) {
                     w.value == std::floor(w.value) &&
                     kGroups[static_cast<std::size_t>(w.value)] != 0;
   if (!read)
-    throw Fault{std::string(w.text),
-                "a code that can be compensated: G0 to G4, G7, G8, G17 to G21, G40, G43, "
-                "G49, G54 to G59, G61, G64, G80, G90, G91, G94 to G99"};
+    throw Fault{
+        std::string(w.text),
+        tr("a code that can be compensated: G0 to G4, G7, G8, G17 to G21, G40, G43, "
+           "G49, G54 to G59, G61, G64, G80, G90, G91, G94 to G99")};
   return static_cast<int>(w.value);
 }
 
@@ -175,7 +177,7 @@ class Interpreter {
     require_room();
     if (text.ends_with('\r')) text.remove_suffix(1);
     if (text.find('\r') != text.npos)
-      throw Fault{"a carriage return within the line", "one block in a line"};
+      throw Fault{tr("a carriage return within the line"), tr("one block in a line")};
     const auto first = std::ranges::find_if_not(text, blank);
     if (first == text.end()) return pass(text);
     if (*first == '%') return tape_end(text);
@@ -193,7 +195,7 @@ class Interpreter {
       const int g = code(w);
       const unsigned bit = 1u << kGroups[static_cast<std::size_t>(g)];
       if (groups & bit)
-        throw Fault{std::string(w.text), "one code of a group in a block"};
+        throw Fault{std::string(w.text), tr("one code of a group in a block")};
       groups |= bit;
       if (g <= 3) motion = g;
       alone = alone || g == 4 || g == 50 || g == 92;
@@ -213,7 +215,7 @@ class Interpreter {
   void require_going() const {
     if (ended_ && !block_.words.empty())
       throw Fault{std::string(block_.words[0].text),
-                  "nothing but % and comments after M2 or M30"};
+                  tr("nothing but % and comments after M2 or M30")};
   }
 
   /// G words have their groups; a block may have several M words.
@@ -223,7 +225,7 @@ class Interpreter {
       if (w.letter == 'G' || w.letter == 'M') continue;
       const unsigned bit = 1u << (w.letter - 'A');
       if (seen & bit)
-        throw Fault{std::string(w.text), std::string(1, w.letter) + " once in a block"};
+        throw Fault{std::string(w.text), say("{} once in a block", w.letter)};
       seen |= bit;
     }
   }
@@ -243,7 +245,7 @@ class Interpreter {
       std::string name = std::to_string(g);
       name.insert(name.begin(), 'G');
       const auto at = offset(name);
-      if (!at && g != 54) throw Fault{name, "a work offset that is given"};
+      if (!at && g != 54) throw Fault{name, tr("a work offset that is given")};
       shift(at.value_or(Vec3{}));
     }
     append(before_, text);
@@ -260,7 +262,7 @@ class Interpreter {
     const auto vector = [this](int n) {
       const auto found = setup_.tool_offsets_mm.find(n);
       if (n != 0 && found == setup_.tool_offsets_mm.end())
-        throw Fault{"tool offset " + std::to_string(n), "one that is given"};
+        throw Fault{say("tool offset {}", n), tr("one that is given")};
       return n == 0 ? Vec3{} : found->second;
     };
     const Vec3 old = vector(tool_), now = vector(number);
@@ -273,7 +275,7 @@ class Interpreter {
   void tape_end(std::string_view text) {
     parse(text.substr(text.find('%') + 1), block_);
     if (!block_.words.empty())
-      throw Fault{'%' + std::string(block_.words[0].text), "% without words"};
+      throw Fault{'%' + std::string(block_.words[0].text), tr("% without words")};
     pass(text);
   }
 
@@ -281,9 +283,9 @@ class Interpreter {
   /// offset.
   void length(bool asked) {
     const auto h = std::ranges::find(block_.words, 'H', &Word::letter);
-    if (asked && h == block_.words.end()) throw Fault{"G43", "its offset number H"};
+    if (asked && h == block_.words.end()) throw Fault{"G43", tr("its offset number H")};
     if (!asked && h != block_.words.end())
-      throw Fault{std::string(h->text), "H with G43"};
+      throw Fault{std::string(h->text), tr("H with G43")};
     if (asked) select(whole(*h));
   }
 
@@ -294,14 +296,15 @@ class Interpreter {
     bool dwell = false;
     for (const Word& w : block_.words) {
       if (w.letter == 'G' && ++codes > 1)
-        throw Fault{std::string(w.text), "G4, G50 and G92 as the only code of a block"};
+        throw Fault{std::string(w.text),
+                    tr("G4, G50 and G92 as the only code of a block")};
       dwell = dwell || (w.letter == 'G' && w.value == 4);
     }
     for (const Word& w : block_.words)
       if (std::string_view(dwell ? "NGPXUSF" : "NGS").find(w.letter) == std::string::npos)
-        throw Fault{
-            std::string(w.text),
-            dwell ? "G4 with a time alone" : "G50 or G92 with S alone, the speed limit"};
+        throw Fault{std::string(w.text),
+                    dwell ? tr("G4 with a time alone")
+                          : tr("G50 or G92 with S alone, the speed limit")};
     pass(text);
   }
 
@@ -318,7 +321,7 @@ class Interpreter {
       if (std::string_view("NMSF").find(w.letter) == std::string::npos)
         throw Fault{
             '/' + std::string(w.text),
-            "deleted blocks of N, M, S, F, which need no knowledge of the switch"};
+            tr("deleted blocks of N, M, S, F, which need no knowledge of the switch")};
     }
     pass(text);
   }
@@ -373,8 +376,8 @@ class Interpreter {
     if (!belongs)
       throw Fault{
           std::string(w.text),
-          "words N G X Y Z I J K R F S T H M of a program without subprograms and "
-          "further axes; O alone, P with G64, D with G96"};
+          tr("words N G X Y Z I J K R F S T H M of a program without subprograms and "
+             "further axes; O alone, P with G64, D with G96")};
     append(before_, w.text);
   }
 
@@ -385,7 +388,7 @@ class Interpreter {
     // Subprograms, repetition, stored modal states.
     if (m == 47 || (m >= 70 && m <= 73) || (m >= 97 && m <= 99))
       throw Fault{std::string(w.text),
-                  "a program without subprograms, repetition and restored states"};
+                  tr("a program without subprograms, repetition and restored states")};
     return m <= 2 || m == 5 || m == 9 || m == 30 || m == 60;
   }
 
@@ -397,7 +400,7 @@ class Interpreter {
     for (const Word& w : block_.words) {
       if (w.letter >= 'X' && w.letter <= 'Z') {
         if (setup_.axes.find(w.letter) == std::string::npos)
-          throw Fault{std::string(w.text), "axes of the machine: " + setup_.axes};
+          throw Fault{std::string(w.text), say("axes of the machine: {}", setup_.axes)};
         const auto k = static_cast<std::size_t>(w.letter - 'X');
         to[k] = mm(w.value) * (k == 0 && diameter_ ? 0.5 : 1);
       }
@@ -408,15 +411,16 @@ class Interpreter {
     const bool anywhere = to[0] || to[1] || to[2];
     const bool arc = motion_ > 1;
     const bool arc_words = centre[0] || centre[1] || centre[2] || radius;
-    if (arc_words && !arc) throw Fault{"I, J, K or R", "arc words in G2 and G3 only"};
+    if (arc_words && !arc)
+      throw Fault{tr("I, J, K or R"), tr("arc words in G2 and G3 only")};
     if (!anywhere && !arc_words) {
       if (commanded && motion_ <= 1) append(before_, motion_ == 0 ? "G0" : "G1");
-      if (commanded && arc) throw Fault{"no end", "the end or centre of the arc"};
+      if (commanded && arc) throw Fault{tr("no end"), tr("the end or centre of the arc")};
       append(before_, after_);
       return pass(before_);
     }
     if (motion_ == kNoMotion)
-      throw Fault{"coordinates after G80", "G0 to G3 before them"};
+      throw Fault{tr("coordinates after G80"), tr("G0 to G3 before them")};
     if (!commanded_ && program_.rapid_assumed == 0) program_.rapid_assumed = line_;
     Vec3 end = tip_;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -424,7 +428,7 @@ class Interpreter {
       end[k] = incremental_ ? tip_[k] + *to[k] : *to[k];
       if (!(std::abs(end[k]) <= kFarthest_mm))
         throw Fault{std::string(1, "XYZ"[k]) + " = " + number(end[k]) + " mm",
-                    "coordinates within 1e6 mm"};
+                    tr("coordinates within 1e6 mm")};
     }
     if (arc) {
       chords(end, centre, radius);
@@ -438,8 +442,8 @@ class Interpreter {
     leave_if_asked();
     full_ = program_.moves.size() >= setup_.moves_max;
     if (full_)
-      throw Fault{"more than " + std::to_string(setup_.moves_max) + " moves",
-                  "fewer; a wider tolerance makes shorter programs of arcs"};
+      throw Fault{say("more than {} moves", setup_.moves_max),
+                  tr("fewer; a wider tolerance makes shorter programs of arcs")};
   }
 
   void emit(const Vec3& p, bool first, bool last) {
@@ -466,12 +470,12 @@ class Interpreter {
   std::array<double, 2> centre_of(double du, double dv, double R, bool ccw) const {
     const double half = std::hypot(du, dv) / 2;
     if (!(2 * half > kSame_mm))
-      throw Fault{"R with the end at the start",
-                  "an end away from the start, or the centre instead of R"};
+      throw Fault{tr("R with the end at the start"),
+                  tr("an end away from the start, or the centre instead of R")};
     const double rest = R * R - half * half;
     if (!(rest > -2 * std::abs(R) * kRadii_mm))
       throw Fault{"R " + number(std::abs(R)) + " mm",
-                  "at least half the distance of the ends, " + number(half) + " mm"};
+                  say("at least half the distance of the ends, {} mm", number(half))};
     const double h =
         std::sqrt(std::max(0.0, rest)) / (2 * half) * ((R > 0) == ccw ? 1 : -1);
     return {du / 2 - h * dv, dv / 2 + h * du};
@@ -480,22 +484,22 @@ class Interpreter {
   void chords(const Vec3& end, const std::array<std::optional<double>, 3>& given,
               std::optional<double> R) {
     const auto [u, v, w] = plane();
-    if (given[w]) throw Fault{std::string(1, "IJK"[w]), "a centre in the plane"};
+    if (given[w]) throw Fault{std::string(1, "IJK"[w]), tr("a centre in the plane")};
     for (const std::size_t k : {u, v})
       if (setup_.axes.find("XYZ"[k]) == std::string::npos)
         throw Fault{"G" + std::to_string(plane_),
-                    "an arc in a plane of the machine's axes: " + setup_.axes};
+                    say("an arc in a plane of the machine's axes: {}", setup_.axes)};
     const bool ccw = motion_ == 3;
     const double du = end[u] - tip_[u], dv = end[v] - tip_[v];
-    if (R && (given[u] || given[v])) throw Fault{"R and a centre", "one of them"};
+    if (R && (given[u] || given[v])) throw Fault{tr("R and a centre"), tr("one of them")};
     const std::array<double, 2> c =
         R ? centre_of(du, dv, *R, ccw)
           : std::array{given[u].value_or(0), given[v].value_or(0)};
     const double r0 = std::hypot(c[0], c[1]), r1 = std::hypot(du - c[0], dv - c[1]);
-    if (!(r0 > 0)) throw Fault{"an arc of radius 0", "a centre off the start"};
+    if (!(r0 > 0)) throw Fault{tr("an arc of radius 0"), tr("a centre off the start")};
     if (!(std::abs(r1 - r0) <= kRadii_mm))
-      throw Fault{"radii " + number(r0) + " and " + number(r1) + " mm",
-                  "an arc whose ends are as far from the centre, within 0.01 mm"};
+      throw Fault{say("radii {} and {} mm", number(r0), number(r1)),
+                  tr("an arc whose ends are as far from the centre, within 0.01 mm")};
     const double pi = units::kPi;
     const double a0 = std::atan2(-c[1], -c[0]), a1 = std::atan2(dv - c[1], du - c[0]);
     double sweep = a1 - a0;
@@ -515,7 +519,8 @@ class Interpreter {
     double from = 0;
     for (const double stop : stops) {
       const double parts = std::ceil((stop - from) * std::abs(sweep) / step);
-      if (!(parts <= kMostChords)) throw Fault{"an arc", "a tolerance it can be cut to"};
+      if (!(parts <= kMostChords))
+        throw Fault{tr("an arc"), tr("a tolerance it can be cut to")};
       const auto n = std::max<std::size_t>(1, static_cast<std::size_t>(parts));
       for (std::size_t i = 1; i <= n; ++i) {
         const double share =

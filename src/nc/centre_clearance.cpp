@@ -1,10 +1,9 @@
 #include "centre_clearance.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
+#include "base/say.hpp"
 #include "planning/clamping/centre_clearance.hpp"
 
 namespace turnwright::nc {
@@ -42,8 +41,7 @@ void keep_clear_of_centre(Site& site, const planning::OperationPlan& o, Point fr
     from = to;
   }
   if (worst > kRounding_mm)
-    site.refuse(o.id,
-                fmt::format("{} would meet the live centre by {:.2g} mm", o.tool, worst));
+    site.refuse(o.id, say("{} would meet the live centre by {:.2g} mm", o.tool, worst));
 }
 
 }  // namespace turnwright::nc

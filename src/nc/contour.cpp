@@ -1,12 +1,11 @@
 #include "contour.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
 
+#include "base/say.hpp"
 #include "planning/values/readable.hpp"
 
 namespace turnwright::nc {
@@ -265,9 +264,9 @@ void tell_jaws(Site& site, std::size_t k, const std::string& operation, double n
   const double ends = std::round(1e6 * (s.z1 - site.root_z)) / 1e6;
   const auto [left, needed] = planning::readable_apart(std::abs(ends), s.z1 - needed_z);
   site.refuse(operation,
-              fmt::format("{} ends {} mm before the jaws, its tool's corner needs {} mm: "
-                          "grip less",
-                          s.id, left, needed));
+              say("{} ends {} mm before the jaws, its tool's corner needs {} mm: "
+                  "grip less",
+                  s.id, left, needed));
 }
 
 bool comes_in(const std::vector<Point>& way, const std::vector<Piece>& pieces,

@@ -1,11 +1,10 @@
 #include "fixed.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "base/say.hpp"
 #include "contour.hpp"
 #include "planning/auxiliary/hole_operations.hpp"
 #include "planning/paths/edges.hpp"
@@ -111,9 +110,9 @@ void through_hole(Site& site, const OperationPlan& o, Kind kind) {
 // position; if so it is reported as not programmable.
 bool unfaced(Site& site, const OperationPlan& o, const Surface& s, double z) {
   if (!(site.front > 0 && z > 0)) return false;
-  site.refuse(o.id, fmt::format("the end that {} begins at is not faced, {:.3g} mm stand "
-                                "before it",
-                                s.id, site.front));
+  site.refuse(o.id, say("the end that {} begins at is not faced, {:.3g} mm stand "
+                        "before it",
+                        s.id, site.front));
   return true;
 }
 
@@ -231,10 +230,9 @@ void arc(Site& site, const OperationPlan& o, const FixedTool& tool, const Place&
   const auto& cut = *cut_of(site, s);
   const auto drawn = drawn_arc(site, s);
   if (!planning::cleared(site.part, site.setup, s.index)) {
-    site.refuse(o.id,
-                fmt::format("arc {} falls towards the chuck by more than the {:.4g} "
-                            "deg that profiling tools are taken to clear",
-                            s.id, units::deg_from_rad(part::kProfilingClears_rad)));
+    site.refuse(o.id, say("arc {} falls towards the chuck by more than the {:.4g} "
+                          "deg that profiling tools are taken to clear",
+                          s.id, units::deg_from_rad(part::kProfilingClears_rad)));
     return;
   }
   const Corner corner{tool.re_mm, part::kProfilingClears_rad};
@@ -252,18 +250,16 @@ void arc(Site& site, const OperationPlan& o, const FixedTool& tool, const Place&
     for (Point* q : {&raised.from, &raised.to, &raised.centre}) q->h_mm += left;
     const auto way = way_along(raised, before, behind, corner);
     if (!way) {
-      site.refuse(o.id,
-                  fmt::format("arc {} of {:g} mm between what is beside it does not "
-                              "take the tool, of a corner of {:g} mm",
-                              s.id, cut.radius_mm, tool.re_mm));
+      site.refuse(o.id, say("arc {} of {:g} mm between what is beside it does not "
+                            "take the tool, of a corner of {:g} mm",
+                            s.id, cut.radius_mm, tool.re_mm));
       return;
     }
     const auto from = beginning(way->from, site.above(p.side), all, corner);
     if (!from) {
       site.refuse(
           o.id,
-          fmt::format("no tool gets to the beginning of arc {} past what is beside it",
-                      s.id));
+          say("no tool gets to the beginning of arc {} past what is beside it", s.id));
       return;
     }
     if (unfaced(site, o, s, from->z_mm + 2 * tool.re_mm)) return;

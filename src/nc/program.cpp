@@ -13,6 +13,7 @@
 #include "planning/clamping/supports.hpp"
 #include "planning/values/tool_label.hpp"
 #include "turning.hpp"
+#include "turnwright/base/language.hpp"
 #include "turnwright/base/units.hpp"
 #include "turnwright/cutting/spindle.hpp"
 
@@ -293,7 +294,7 @@ void way(Site& site, std::size_t i) {
   const auto& o = site.answer().operations[i];
   if (o.direction == planning::Direction::from_chuck && o.kind != OperationKind::fixed &&
       o.kind != OperationKind::face)
-    site.refuse(o.id, "no program is made for turning from the chuck outwards");
+    site.refuse(o.id, tr("no program is made for turning from the chuck outwards"));
   else if (o.kind == OperationKind::fixed)
     fixed(site, i);
   else if (is_shoulder(o))
@@ -409,8 +410,9 @@ void refuse_unprogrammed(const planning::PreparedPart& part,
     s.edges.clear();
   }
   plan.certificate = {};
-  plan.certificate.reason = "the plan found cannot be programmed";
-  for (const auto& why : cannot) plan.conflicts.push_back({"program", "", 0, 0, "", why});
+  plan.certificate.reason = tr("the plan found cannot be programmed");
+  for (const auto& why : cannot)
+    plan.conflicts.push_back({to_translate("program"), "", 0, 0, "", why});
 }
 
 Programs programs(const planning::PreparedPart& part, const planning::ProcessPlan& plan) {

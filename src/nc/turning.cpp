@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/say.hpp"
 #include "contour.hpp"
 #include "planning/paths/edges.hpp"
 #include "planning/paths/pass_lengths.hpp"
@@ -239,8 +240,8 @@ void lead_in(const Pass& p, const std::vector<Point>& c, std::vector<Point>& way
   const bool stopped = clip(way, pieces, p.tool());
   if (along(way).length_mm < std::min(lets, own) - kStands_mm - lost_mm(p))
     p.site.refuse(p.plan().id,
-                  fmt::format("the minor edge of {} does not clear what is before {}",
-                              p.plan().tool, p.surface().id));
+                  say("the minor edge of {} does not clear what is before {}",
+                      p.plan().tool, p.surface().id));
   way = {way.rbegin(), way.rend()};
   if (way.empty() || !(stopped || begins_on_finished(p))) return;
   if (!stopped)

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "turnwright/base/language.hpp"
 #include "turnwright/base/pattern.hpp"
 #include "turnwright/base/units.hpp"
 
@@ -132,18 +133,18 @@ Shaped arc(double length_mm, Ends ends, double radius_mm, bool convex) {
   const double rl = ends.left_mm / 2, rr = ends.right_mm / 2;
   const double c = std::hypot(l, rr - rl);
   if (!(R >= c / 2 * (1 - kRounding)))
-    throw std::domain_error("a radius of at least half the chord between the ends");
+    throw std::domain_error(tr("a radius of at least half the chord between the ends"));
   const double d = std::sqrt(std::max(0.0, R * R - c * c / 4));
   const double inwards = convex ? -1 : 1;  // from the chord's middle to the centre
   const double zc = l / 2 - inwards * d * (rr - rl) / c;
   const double rc = (rl + rr) / 2 + inwards * d * l / c;
   const double slack = kRounding * R;
   if (convex ? std::min(rl, rr) < rc - slack : std::max(rl, rr) > rc + slack)
-    throw std::domain_error("an arc that stays between its ends along the axis");
+    throw std::domain_error(tr("an arc that stays between its ends along the axis"));
   const bool turns = zc > 0 && zc < l;  // it has a point parallel to the axis
   const double most = convex && turns ? rc + R : std::max(rl, rr);
   const double least = !convex && turns ? rc - R : std::min(rl, rr);
-  if (!(least > 0)) throw std::domain_error("an arc that does not meet the axis");
+  if (!(least > 0)) throw std::domain_error(tr("an arc that does not meet the axis"));
   const auto slope = [R](double dz) {  // Eq. (6)
     return dz > 0 ? std::asin(std::min(1.0, dz / R)) : 0;
   };

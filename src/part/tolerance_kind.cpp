@@ -1,5 +1,7 @@
 #include "turnwright/part/tolerance_kind.hpp"
 
+#include "turnwright/base/language.hpp"
+
 namespace turnwright::part {
 namespace {
 
@@ -12,28 +14,29 @@ using Rule = ToleranceRule;
 constexpr ToleranceFacts row(ToleranceKind kind) {
   switch (kind) {
     case K::diameter:
-      return {kind, "diameter", Of::element, Datum::none, Rule::size};
+      return {kind, to_translate("diameter"), Of::element, Datum::none, Rule::size};
     case K::length:
-      return {kind, "length", Of::two_faces, Datum::none, Rule::size};
+      return {kind, to_translate("length"), Of::two_faces, Datum::none, Rule::size};
     case K::straightness:
-      return {kind, "straightness", Of::element, Datum::none, Rule::straightness};
+      return {kind, to_translate("straightness"), Of::element, Datum::none,
+              Rule::straightness};
     case K::circularity:
       return {.kind = kind,
-              .name = "circularity",
+              .name = to_translate("circularity"),
               .of = Of::element,
               .rule = Rule::machine,
               .sees_lobes = true};
     case K::flatness:
-      return {kind, "flatness", Of::face, Datum::none, Rule::range};
+      return {kind, to_translate("flatness"), Of::face, Datum::none, Rule::range};
     case K::cylindricity:
       return {.kind = kind,
-              .name = "cylindricity",
+              .name = to_translate("cylindricity"),
               .of = Of::cylinder,
               .rule = Rule::range,
               .sees_lobes = true};
     case K::profile:
       return {.kind = kind,
-              .name = "profile",
+              .name = to_translate("profile"),
               .of = Of::element,
               .datum = Datum::element_or_face,
               .rule = Rule::profile,
@@ -41,47 +44,47 @@ constexpr ToleranceFacts row(ToleranceKind kind) {
               .rechucked = Rechucked::displaced};
     case K::profile_without_datum:
       return {.kind = kind,
-              .name = "profile-without-datum",
+              .name = to_translate("profile-without-datum"),
               .of = Of::element,
               .rule = Rule::floating_profile,
               .sees_lobes = true};
     case K::parallelism:
       return {.kind = kind,
-              .name = "parallelism",
+              .name = to_translate("parallelism"),
               .of = Of::face,
               .datum = Datum::face,
               .rule = Rule::range,
               .rechucked = Rechucked::tilted};
     case K::perpendicularity:
       return {.kind = kind,
-              .name = "perpendicularity",
+              .name = to_translate("perpendicularity"),
               .datum = Datum::other,
               .rule = Rule::range,
               .axis_rule = Rule::machine,
               .rechucked = Rechucked::tilted};
     case K::angularity:
       return {.kind = kind,
-              .name = "angularity",
+              .name = to_translate("angularity"),
               .datum = Datum::element_or_face,
               .rule = Rule::machine,
               .rechucked = Rechucked::tilted};
     case K::position:
       return {.kind = kind,
-              .name = "position",
+              .name = to_translate("position"),
               .of = Of::element,
               .datum = Datum::element_or_face,
               .rule = Rule::machine,
               .rechucked = Rechucked::run_out};
     case K::coaxiality:
       return {.kind = kind,
-              .name = "coaxiality",
+              .name = to_translate("coaxiality"),
               .of = Of::element,
               .datum = Datum::element,
               .rule = Rule::machine,
               .rechucked = Rechucked::run_out};
     case K::circular_radial_runout:
       return {.kind = kind,
-              .name = "circular-radial-runout",
+              .name = to_translate("circular-radial-runout"),
               .of = Of::element,
               .datum = Datum::element,
               .rule = Rule::machine,
@@ -89,14 +92,14 @@ constexpr ToleranceFacts row(ToleranceKind kind) {
               .rechucked = Rechucked::run_out};
     case K::circular_axial_runout:
       return {.kind = kind,
-              .name = "circular-axial-runout",
+              .name = to_translate("circular-axial-runout"),
               .of = Of::face,
               .datum = Datum::element,
               .rule = Rule::machine,
               .rechucked = Rechucked::tilted};
     case K::total_radial_runout:
       return {.kind = kind,
-              .name = "total-radial-runout",
+              .name = to_translate("total-radial-runout"),
               .of = Of::cylinder,
               .datum = Datum::element,
               .rule = Rule::runout,
@@ -104,7 +107,7 @@ constexpr ToleranceFacts row(ToleranceKind kind) {
               .rechucked = Rechucked::run_out};
     case K::total_axial_runout:
       return {.kind = kind,
-              .name = "total-axial-runout",
+              .name = to_translate("total-axial-runout"),
               .of = Of::face,
               .datum = Datum::element,
               .rule = Rule::runout,

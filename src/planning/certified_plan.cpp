@@ -1,11 +1,10 @@
 #include "certified_plan.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <set>
 
+#include "base/say.hpp"
 #include "planning/explain/given_operations.hpp"
 #include "planning/explain/prices.hpp"
 #include "planning/explain/sensitivity.hpp"
@@ -48,8 +47,8 @@ Certificate total_certificate(const Attempt& a) {
   if (c.kind == CertificateKind::global && c.gap > kCertified) {
     c.kind = CertificateKind::local;
     c.reason =
-        "with other tools or another clamping the budget of boxes ended before "
-        "every box was settled";
+        tr("with other tools or another clamping the budget of boxes ended before "
+           "every box was settled");
   }
   return c;
 }
@@ -58,10 +57,11 @@ Certificate no_certificate(const Attempt& a) {
   Certificate c;
   c.reason =
       a.lower_bound < kInfinity
-          ? "no plan was found, but it is not proved that there is none: the budget of "
-            "boxes ended before every box was settled, or with a corrected path the "
-            "sizes were kept by none of the conditions that were tried"
-          : "proved: no plan keeps every limit";
+          ? say("no plan was found, but it is not proved that there is none: {}",
+                tr("the budget of boxes ended before every box was settled, or with a "
+                   "corrected path the sizes were kept by none of the conditions that "
+                   "were tried"))
+          : tr("proved: no plan keeps every limit");
   for (const auto& s : a.setups)
     for (const auto& f : s.chosen.features) c.nodes += f.answer.certificate.nodes;
   return c;
@@ -75,8 +75,8 @@ SetupPlan setup_plan(const PreparedPart& p, std::size_t index, const Comparison&
   s.rejected_tools = c.chosen.rejected_tools;
   if (!c.solved) {
     for (const auto& r : c.rejected)
-      result.conflicts.push_back({"clamping", setup_label(index), 0, 0, "",
-                                  std::string(name(r.clamping)) + ": " + r.why});
+      result.conflicts.push_back({to_translate("clamping"), setup_label(index), 0, 0, "",
+                                  tr(name(r.clamping)) + ": " + r.why});
     return s;
   }
   s.clamping = c.chosen.clamping;
@@ -95,10 +95,10 @@ bool add_missed(const PreparedPart& p, ProcessPlan& result) {
     result.conflicts.push_back({t.id + " " + part::name(t.kind), t.of,
                                 t.allowed_mm.back() - t.margin_mm, t.allowed_mm.back(),
                                 "mm",
-                                fmt::format("{} of {} is {} mm outside its limits {}",
-                                            t.id, t.of, readable(-t.margin_mm),
-                                            worn ? "with edges that are not yet due"
-                                                 : "even with the path corrected")});
+                                say("{} of {} is {} mm outside its limits {}", t.id, t.of,
+                                    readable(-t.margin_mm),
+                                    worn ? tr("with edges that are not yet due")
+                                         : tr("even with the path corrected"))});
   }
   if (result.conflicts.empty()) return false;
   result.status = PlanStatus::infeasible;
@@ -108,9 +108,9 @@ bool add_missed(const PreparedPart& p, ProcessPlan& result) {
   result.profit_per_min.reset();
   result.certificate = {};
   result.certificate.reason =
-      worn
-          ? "no plan was found: what worn edges keep, newer ones do not"
-          : "no plan was found: even a corrected tool path does not keep every tolerance";
+      worn ? tr("no plan was found: what worn edges keep, newer ones do not")
+           : tr("no plan was found: even a corrected tool path does not keep every "
+                "tolerance");
   return true;
 }
 
@@ -152,7 +152,7 @@ NearestPlan nearest_plan(const PreparedPart& p, const std::vector<WhatIf>& what_
   if (!result.conflicts.empty()) {
     result.status = PlanStatus::infeasible;
     result.certificate.reason =
-        "no conditions of turning and boring can resolve the conflicts";
+        tr("no conditions of turning and boring can resolve the conflicts");
     nearest.shortfall.unsolved = true;
     return nearest;
   }

@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "base/say.hpp"
 #include "certified_plan.hpp"
 #include "completed_plan.hpp"
 #include "planning/values/readable.hpp"
@@ -63,16 +64,18 @@ void add(const Certificate& other, Certificate& c) {
 }
 
 std::string sentence(const Alternative& a, const ProcessPlan& best, bool answer) {
-  if (a.chosen) return fmt::format("{}: chosen", a.name);
+  if (a.chosen) return say("{}: chosen", a.name);
   if (!a.feasible)
-    return fmt::format("{}: {}no feasible plan{}{}", a.name,
-                       answer ? "comes closest, its conflicts are told; " : "",
-                       a.why.empty() ? "" : ": ", a.why);
+    return say("{}: {}no feasible plan{}{}", a.name,
+               answer ? tr("comes closest, its conflicts are told; ") : "",
+               a.why.empty() ? "" : ": ", a.why);
   const double more = *a.cost_per_part - best.cost_per_part;
   const double seconds = 60 * (*a.time_per_part_min - best.time_per_part_min);
-  return fmt::format("{}: {} {} per part, {} s {}", a.name, readable(std::abs(more)),
-                     more < 0 ? "less" : "more", readable(std::abs(seconds)),
-                     seconds < 0 ? "shorter" : "longer");
+  return fmt::format("{}: {}, {}", a.name,
+                     more < 0 ? say("{} less per part", readable(std::abs(more)))
+                              : say("{} more per part", readable(std::abs(more))),
+                     seconds < 0 ? say("{} s shorter", readable(std::abs(seconds)))
+                                 : say("{} s longer", readable(std::abs(seconds))));
 }
 
 // Plans without explanations, and what becomes of them in the judge's eyes and by the
@@ -96,13 +99,13 @@ void prefer_proven(const std::vector<Candidate>& candidates, Compared& all) {
         (objective(candidates[i - 1].part, proven) - least) / std::abs(least);
     const bool kept = more <= *within;
     const auto aside = kept ? i : i - 1;
-    all.set_aside[aside] = fmt::format(
-        "set aside, proven conditions cost {} % more than others, {} than {} %",
-        readable(kPercent * std::max(0.0, more)), kept ? "not more" : "more",
-        readable(kPercent * *within));
+    all.set_aside[aside] =
+        say("set aside, proven conditions cost {} % more than others, {} than {} %",
+            readable(kPercent * std::max(0.0, more)), kept ? tr("not more") : tr("more"),
+            readable(kPercent * *within));
     all.judged[aside].status = PlanStatus::infeasible;
     auto& conflict = all.judged[aside].conflicts.emplace_back();
-    conflict.limit = "rules";
+    conflict.limit = to_translate("rules");
     conflict.sentence = all.set_aside[aside];
   }
 }

@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <limits>
 #include <numeric>
@@ -17,6 +15,7 @@
 #include "planning/setup/setup_totals.hpp"
 #include "planning/setup/tolerance_verdicts.hpp"
 #include "planning/values/readable.hpp"
+#include "turnwright/base/language.hpp"
 #include "turnwright/planning/plan.hpp"
 #include "turnwright/planning/prepare.hpp"
 
@@ -60,7 +59,7 @@ SurfaceAnswer as_given(const SurfaceTask& task) {
   a.objective = a.model->objective(a.choice);
   a.multipliers.assign(a.model->rows().size(), 0);
   a.profile = task.feature.profile(a.model->recipe(), task.economy, a.choice);
-  a.certificate.reason = "conditions as given";
+  a.certificate.reason = tr("conditions as given");
   return a;
 }
 
@@ -83,7 +82,7 @@ bool held(const PreparedPart& p, ProcessPlan& result) {
     if (why.empty()) continue;
     all = false;
     result.conflicts.push_back(
-        {"clamping", setup_label(s), 0, 0, "", std::string(name(clamping)) + ": " + why});
+        {"clamping", setup_label(s), 0, 0, "", tr(name(clamping)) + ": " + why});
   }
   return all;
 }
@@ -181,14 +180,14 @@ ProcessPlan predict(const PreparedPart& p) {
   add_used_up(p, every, result);
   if (!held(p, result)) {
     result.status = PlanStatus::infeasible;
-    result.certificate.reason = "nothing to predict: the part cannot be held so";
+    result.certificate.reason = tr("nothing to predict: the part cannot be held so");
     return result;
   }
   add_left_out(p, result);
   const auto setups = with_corrections(p);
   for (std::size_t s = 0; s < setups.size(); ++s)
     result.setups.push_back(setup_plan(p, s, setups[s], result));
-  result.certificate.reason = "conditions as given";
+  result.certificate.reason = tr("conditions as given");
   if (feasible(setups)) {
     result.tolerances = tolerance_results(p, setups);
     result.worst_conformance = worst_conformance(p, result.tolerances);

@@ -1,13 +1,12 @@
 #include "remedies.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <optional>
 #include <utility>
 
+#include "base/say.hpp"
 #include "certified_plan.hpp"
 #include "planning/clamping/positions.hpp"
 #include "planning/explain/feasibility.hpp"
@@ -76,9 +75,9 @@ std::vector<double> steady_places_mm(const PreparedPart& p, std::size_t s,
 void add_clampings(const PreparedPart& p, std::size_t s, std::vector<Variant>& all) {
   const auto& allowed = p.setups[s].clampings;
   const auto add = [&](Clamping c, double steady_mm) {
-    auto sentence = fmt::format("allowing {} in {}", name(c), setup_label(s));
+    auto sentence = say("allowing {} in {}", tr(name(c)), setup_label(s));
     if (c == Clamping::chuck_steady)
-      sentence += fmt::format(", the rest at z = {} mm", readable(steady_mm));
+      sentence += say(", the rest at z = {} mm", readable(steady_mm));
     all.push_back(
         {{.kind = Kind::clamping, .setup = s, .clamping = c, .steady_mm = steady_mm},
          std::move(sentence)});
@@ -99,15 +98,15 @@ void add_clampings(const PreparedPart& p, std::size_t s, std::vector<Variant>& a
 void add_grip(const PreparedPart& p, std::size_t s, double grip_mm,
               std::vector<Variant>& all) {
   all.push_back({{.kind = Kind::grip, .setup = s, .grip_mm = grip_mm},
-                 fmt::format("gripping {} instead of {} mm in {}", readable(grip_mm),
-                             readable(p.grips_mm[s]), setup_label(s))});
+                 say("gripping {} instead of {} mm in {}", readable(grip_mm),
+                     readable(p.grips_mm[s]), setup_label(s))});
 }
 
 void add_tools(const PreparedPart& p, std::vector<Variant>& all) {
   for (const auto& tool : p.spare_tools)
     if (std::find(tool.groups.begin(), tool.groups.end(), p.material.group) !=
         tool.groups.end())
-      all.push_back({{.kind = Kind::tool, .name = tool.id}, "the tool " + tool.id});
+      all.push_back({{.kind = Kind::tool, .name = tool.id}, say("the tool {}", tool.id)});
 }
 
 void add_operations(const PreparedPart& p, std::vector<Variant>& all) {
@@ -116,7 +115,7 @@ void add_operations(const PreparedPart& p, std::vector<Variant>& all) {
     const char* key = l.row->name;
     const auto& id = (*p.operations)[l.owner].id;
     all.push_back({{.kind = Kind::operation, .name = id, .key = key},
-                   fmt::format("leaving {} of {} to the planner", key, id)});
+                   say("leaving {} of {} to the planner", key, id)});
   }
 }
 
@@ -160,9 +159,10 @@ Plans plans_of(std::size_t count,
 void add_remedy(const ProcessPlan& with, std::vector<RequestChange> changes,
                 const std::string& sentence, std::vector<Remedy>& all) {
   const bool two = changes.size() > 1;
+  const auto cost = readable(with.cost_per_part);
   all.push_back({std::move(changes),
-                 fmt::format("{} {} it possible, at {} per part", sentence,
-                             two ? "make" : "makes", readable(with.cost_per_part)),
+                 two ? say("{} make it possible, at {} per part", sentence, cost)
+                     : say("{} makes it possible, at {} per part", sentence, cost),
                  with.cost_per_part, with.time_per_part_min});
 }
 
@@ -183,8 +183,8 @@ void add_pairs(const PreparedPart& p, const std::vector<Variant>& all,
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const auto& [a, b] = pairs[i];
     if (plans[i])
-      add_remedy(*plans[i], {a->change, b->change}, a->sentence + " and " + b->sentence,
-                 found);
+      add_remedy(*plans[i], {a->change, b->change},
+                 say("{} and {}", a->sentence, b->sentence), found);
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "base/say.hpp"
 #include "certified_plan.hpp"
 #include "explanation.hpp"
 #include "planning/values/readable.hpp"
@@ -17,8 +18,8 @@ constexpr double kSecondsPerMinute = 60;
 constexpr double kCertificates = 2e-4;  // what two gaps may hide of a saving
 
 std::string saves(double amount, const std::string& unit) {
-  return fmt::format("{} {}{}", amount < 0 ? "costs" : "saves",
-                     readable(std::abs(amount)), unit);
+  const auto value = readable(std::abs(amount)) + unit;
+  return amount < 0 ? say("costs {}", value) : say("saves {}", value);
 }
 
 std::string sentence(const PreparedPart& p, const ProcessPlan& own, const WhatIfAnswer& a,
@@ -26,22 +27,21 @@ std::string sentence(const PreparedPart& p, const ProcessPlan& own, const WhatIf
   if (!a.feasible) {
     const auto why =
         changed.conflicts.empty() ? "" : ": " + changed.conflicts[0].sentence;
-    return fmt::format("{}: no feasible plan{}", a.name, why);
+    return say("{}: no feasible plan{}", a.name, why);
   }
   if (!a.saves_per_part)
-    return fmt::format("{}: makes the part feasible, at {:.4f} in {:.3f} min", a.name,
-                       a.cost_per_part, a.time_per_part_min);
+    return say("{}: makes the part feasible, at {:.4f} in {:.3f} min", a.name,
+               a.cost_per_part, a.time_per_part_min);
   const double seconds = *a.saves_min_per_part * kSecondsPerMinute;
   const bool same =
       std::abs(*a.saves_per_part) <= kCertificates * own.cost_per_part &&
       std::abs(*a.saves_min_per_part) <= kCertificates * own.time_per_part_min;
-  if (same) return fmt::format("{}: changes nothing", a.name);
-  return fmt::format(
-      "{}: {} per part{}; {} per part", a.name, saves(*a.saves_per_part, ""),
-      p.batch ? fmt::format(", {} per batch of {}",
-                            readable(std::abs(*a.saves_per_batch)), readable(*p.batch))
-              : "",
-      saves(seconds, " s"));
+  if (same) return say("{}: changes nothing", a.name);
+  return say("{}: {} per part{}; {} per part", a.name, saves(*a.saves_per_part, ""),
+             p.batch ? say(", {} per batch of {}", readable(std::abs(*a.saves_per_batch)),
+                           readable(*p.batch))
+                     : "",
+             saves(seconds, " s"));
 }
 
 // Plans the changed request and completes the answer to it.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "base/say.hpp"
 #include "planning/clamping/made_surfaces.hpp"
 #include "turnwright/review/review.hpp"
 
@@ -45,7 +46,7 @@ class Reconstructing {
     for (std::size_t s = 0; s < part_.setups.size(); ++s) {
       const auto setup = std::ranges::find(review_.setups, s, &ReviewedSetup::setup);
       if (setup == review_.setups.end()) {
-        refuse(fmt::format("{} has no program", planning::setup_label(s)));
+        refuse(say("{} has no program", planning::setup_label(s)));
         continue;
       }
       add(*setup);
@@ -91,7 +92,7 @@ class Reconstructing {
   void add_face(const ReviewedSetup& setup, const std::string& face) {
     const Cut* faced = nullptr;
     for (const auto* c : cuts_on(setup, face)) faced = c;
-    if (!faced) return refuse(fmt::format("no program faces {}", face));
+    if (!faced) return refuse(say("no program faces {}", face));
     const int passes = count(*faced);
     out_.operations.push_back(
         operation(setup.setup, OperationKind::face, face, *faced, passes, std::nullopt));
@@ -157,12 +158,11 @@ class Reconstructing {
   void add_element(const ReviewedSetup& setup, const Element& e, bool inner) {
     const auto cuts = cuts_on(setup, e.id);
     if (cuts.empty() && part::is_groove(e)) return add_blank(setup, e);
-    if (cuts.empty()) return refuse(fmt::format("no program turns {}", e.id));
+    if (cuts.empty()) return refuse(say("no program turns {}", e.id));
     const auto& last = *cuts.back();
     for (std::size_t k = 1; k + 1 < cuts.size(); ++k)
       if (!alike(*cuts[0], *cuts[k]))
-        return refuse(
-            fmt::format("{} is roughed with more than one tool, speed or feed", e.id));
+        return refuse(say("{} is roughed with more than one tool, speed or feed", e.id));
     if (cuts.size() > 1) {
       int passes = 0;
       for (std::size_t k = 0; k + 1 < cuts.size(); ++k) passes += count(*cuts[k]);
@@ -191,7 +191,7 @@ class Reconstructing {
     };
     std::vector<OperationRequest> copies;
     std::ranges::copy_if(out_.operations, std::back_inserter(copies), blank);
-    if (copies.empty()) refuse(fmt::format("no program turns {}", groove.id));
+    if (copies.empty()) refuse(say("no program turns {}", groove.id));
     for (auto& o : copies) {
       o.on = {groove.id};
       o.id += fmt::format("-{}", groove.id);

@@ -8,6 +8,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "base/say.hpp"
 #include "response.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/base/least_squares.hpp"
@@ -207,7 +208,7 @@ Bounds bounds(const Task& task, const FitOptions& o) {
   out.upper.push_back(o.p ? *o.p : p_told ? o.p_max : 1);
   if (!(tau_min < tau_max && tau_min < amb_max && o.p_min < o.p_max) ||
       (s.lags == 2 && !(tau_max - tau_min > std::log(kSeparation))))
-    throw ModelRangeError("thermal: the bounds of the lags or of p leave no room");
+    throw ModelRangeError(tr("thermal: the bounds of the lags or of p leave no room"));
   return out;
 }
 
@@ -352,7 +353,7 @@ Task first_rows(const DriftLog& log, const Inputs& inputs, const FitOptions& o) 
   task.shape.ambient = high > low;
   task.shape.start = !o.soaked_start;
   if (!(task.n_max_rpm > 0 && std::ranges::max(inputs.rpm) > 0))
-    throw ModelRangeError("thermal: the spindle never turns in the rows to fit");
+    throw ModelRangeError(tr("thermal: the spindle never turns in the rows to fit"));
   return task;
 }
 
@@ -364,8 +365,8 @@ Choice fit_lags(const DriftLog& log, std::size_t rows, const FitOptions& options
     throw std::domain_error(
         "fit_lags: log must have one error_um for each time_s, rows at most as many");
   if (rows < kLeastRows)
-    throw ModelRangeError("thermal: " + std::to_string(rows) + " rows to fit, " +
-                          std::to_string(kLeastRows) + " at least are needed");
+    throw ModelRangeError(
+        say("thermal: {} rows to fit, {} at least are needed", rows, kLeastRows));
   const auto first = [rows](const std::vector<double>& v) {
     return std::vector<double>(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(rows));
   };

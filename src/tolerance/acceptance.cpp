@@ -7,6 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "base/say.hpp"
 #include "turnwright/base/units.hpp"
 
 namespace turnwright::tolerance {
@@ -48,16 +49,15 @@ void conclude(Verdict& v, double guard_mm, const std::string& found, bool offset
   v.accepted_after_offset = v.accepted || v.margin_after_offset_mm >= -guard_mm;
   v.why = found;
   if (v.accepted)
-    v.why +=
-        fmt::format(": conforms, {:.2f} um to spare", um(std::max(v.margin_mm, 0.0)));
+    v.why += say(": conforms, {:.2f} um to spare", um(std::max(v.margin_mm, 0.0)));
   else if (!offset_helps)
-    v.why += fmt::format(": {:.2f} um too much, and no constant offset changes it",
-                         um(-v.margin_mm));
+    v.why +=
+        say(": {:.2f} um too much, and no constant offset changes it", um(-v.margin_mm));
   else if (v.accepted_after_offset)
-    v.why += fmt::format(": {:.2f} um outside; an offset of {:+.2f} um brings it inside",
-                         um(-v.margin_mm), um(v.offset_into_limits_mm));
+    v.why += say(": {:.2f} um outside; an offset of {:+.2f} um brings it inside",
+                 um(-v.margin_mm), um(v.offset_into_limits_mm));
   else
-    v.why += fmt::format(
+    v.why += say(
         ": {:.2f} um outside; the best offset, {:+.2f} um, leaves it {:.2f} um too wide",
         um(-v.margin_mm), um(v.offset_into_limits_mm), um(-v.margin_after_offset_mm));
 }
@@ -79,14 +79,13 @@ void judge_size(const Case& c, const Extremes& e, double guard_mm, Verdict& v) {
   v.offset_into_limits_mm = (u + l - high - low) / (2 * per);
   v.published_verdict =
       spread <= v.allowed_mm + guard_mm;  // [Valino 2008] Eqs. (11), (15)
-  conclude(
-      v, guard_mm,
-      fmt::format("{} deviates by {:+.2f} to {:+.2f} um, limits {:+.2f} to {:+.2f} um",
-                  c.kind == Kind::length         ? "length"
-                  : c.envelope == Envelope::none ? "diameter"
-                                                 : "diameter with envelope",
-                  um(low), um(high), um(l), um(u)),
-      true);
+  conclude(v, guard_mm,
+           say("{} deviates by {:+.2f} to {:+.2f} um, limits {:+.2f} to {:+.2f} um",
+               c.kind == Kind::length         ? tr("length")
+               : c.envelope == Envelope::none ? tr("diameter")
+                                              : tr("diameter with envelope"),
+               um(low), um(high), um(l), um(u)),
+           true);
 }
 
 /// Eqs. (4)-(9).
@@ -101,32 +100,32 @@ void judge_zone(const Case& c, Rule rule, const Extremes& e, double guard_mm,
   switch (rule) {
     case Rule::range:  // Eq. (4)
       without_offset = with_offset = range;
-      found = "peak to valley {:.2f} um of {:.2f} um";
+      found = tr("peak to valley {:.2f} um of {:.2f} um");
       break;
     case Rule::runout:  // Eq. (5)
       without_offset = with_offset = range + c.machine_mm;
-      found = "peak to valley and machine {:.2f} um of {:.2f} um";
+      found = tr("peak to valley and machine {:.2f} um of {:.2f} um");
       break;
     case Rule::straightness:  // Eq. (6)
       without_offset = with_offset = minimum_zone(c.e_mm).width_mm;
       guard_mm += 2e-12 * with_offset;
-      found = "minimum zone {:.2f} um of {:.2f} um";
+      found = tr("minimum zone {:.2f} um of {:.2f} um");
       break;
     case Rule::profile:  // Eq. (7)
       without_offset = 2 * largest * cosine;
       with_offset = range * cosine;
-      found = "zone about the nominal surface {:.2f} um of {:.2f} um";
+      found = tr("zone about the nominal surface {:.2f} um of {:.2f} um");
       break;
     case Rule::floating_profile:  // Eq. (8)
       without_offset = with_offset = range * cosine;
-      found = "zone normal to the surface {:.2f} um of {:.2f} um";
+      found = tr("zone normal to the surface {:.2f} um of {:.2f} um");
       break;
     case Rule::size:     // judge_size has it
     case Rule::machine:  // Eq. (9)
       without_offset = with_offset = c.machine_mm;
       found =
-          "the cut's deflection has no part in it, machine and chucking {:.2f} um of "
-          "{:.2f} um";
+          tr("the cut's deflection has no part in it, machine and chucking {:.2f} um of "
+             "{:.2f} um");
   }
   v.measured_mm = without_offset;
   v.margin_mm = t - without_offset;

@@ -1,13 +1,12 @@
 #include "turnwright/tolerance/iso286.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <optional>
 #include <stdexcept>
 #include <string>
 
+#include "base/say.hpp"
 #include "turnwright/base/units.hpp"
 
 namespace turnwright::tolerance {
@@ -119,9 +118,9 @@ constexpr std::array<std::array<int, kRanges>, 3> kJ{{
 template <std::size_t N>
 std::size_t index_of(double nominal_mm, const std::array<double, N>& up_to) {
   if (!(nominal_mm > 0 && nominal_mm <= up_to.back()))
-    throw std::domain_error(fmt::format(
-        "nominal size {} mm: ISO 286 is held here for sizes above 0 up to 500 mm",
-        nominal_mm));
+    throw std::domain_error(
+        say("nominal size {} mm: ISO 286 is held here for sizes above 0 up to 500 mm",
+            nominal_mm));
   return static_cast<std::size_t>(std::ranges::lower_bound(up_to, nominal_mm) -
                                   up_to.begin());
 }
@@ -137,7 +136,7 @@ struct Asked {
 };
 
 [[noreturn]] void refuse(std::string_view tolerance_class, const std::string& why) {
-  throw std::domain_error(fmt::format("tolerance class '{}': {}", tolerance_class, why));
+  throw std::domain_error(say("tolerance class '{}': {}", tolerance_class, why));
 }
 
 bool at_most(const Asked& a, Grade grade) { return a.grade <= grade; }
@@ -161,12 +160,12 @@ std::optional<int> magnitude_um(const Asked& a, const Steps& by_step,
   else
     return std::nullopt;
   if (um == kNone)
-    refuse(a.text, fmt::format("ISO 286-1 gives {} no deviation at {} mm ({})", a.letter,
-                               a.nominal_mm,
-                               a.letter == "t"   ? "t starts above 24 mm"
-                               : a.letter == "v" ? "v starts above 14 mm"
-                               : a.letter == "y" ? "y starts above 18 mm"
-                                                 : "cd, ef and fg end at 10 mm"));
+    refuse(a.text,
+           say("ISO 286-1 gives {} no deviation at {} mm ({})", a.letter, a.nominal_mm,
+               a.letter == "t"   ? tr("t starts above 24 mm")
+               : a.letter == "v" ? tr("v starts above 14 mm")
+               : a.letter == "y" ? tr("y starts above 18 mm")
+                                 : tr("cd, ef and fg end at 10 mm")));
   return um;
 }
 
@@ -185,11 +184,13 @@ Asked read(double nominal_mm, std::string_view text) {
       static_cast<std::size_t>(std::ranges::find_if_not(text, is_letter) - text.begin()));
   const std::string_view digits = text.substr(letters.size());
   if (letters.empty() || digits.empty())
-    refuse(text, "write a letter and a grade, such as k6 for a shaft or H7 for a bore");
+    refuse(text,
+           tr("write a letter and a grade, such as k6 for a shaft or H7 for a bore"));
   a.bore = is_upper(letters.front());
   for (const char c : letters) {
     if (is_upper(c) != a.bore)
-      refuse(text, "capitals are bores and small letters are shafts, they do not mix");
+      refuse(text,
+             tr("capitals are bores and small letters are shafts, they do not mix"));
     a.letter += static_cast<char>(a.bore ? c - 'A' + 'a' : c);
   }
   static constexpr std::array<std::string_view, kGrades> kNames{
@@ -197,7 +198,7 @@ Asked read(double nominal_mm, std::string_view text) {
       "9",  "10", "11", "12", "13", "14", "15", "16", "17", "18"};
   const auto grade = std::ranges::find(kNames, digits);
   if (grade == kNames.end())
-    refuse(text, fmt::format("'{}' is no grade, they are 01, 0, 1, 2 .. 18", digits));
+    refuse(text, say("'{}' is no grade, they are 01, 0, 1, 2 .. 18", digits));
   a.grade = static_cast<Grade>(grade - kNames.begin());
   return a;
 }
@@ -207,28 +208,28 @@ double j_um(const Asked& a) {
   using enum Grade;
   if (a.bore) {
     if (a.grade < IT6 || a.grade > IT8)
-      refuse(a.text, "J is made in the grades 6, 7 and 8 only; JS has them all");
+      refuse(a.text, tr("J is made in the grades 6, 7 and 8 only; JS has them all"));
     return kJ[static_cast<std::size_t>(a.grade) - static_cast<std::size_t>(IT6)][a.range];
   }
   if (a.grade == IT8 && a.range == 0) return kj8;
   if (a.grade == IT7) return kj7[a.range];
   if (a.grade == IT5 || a.grade == IT6) return kj56[a.range];
   refuse(a.text,
-         "j is made in the grades 5, 6, 7 and, up to 3 mm, 8 only; js has them all");
+         tr("j is made in the grades 5, 6, 7 and, up to 3 mm, 8 only; js has them all"));
 }
 
 /// ES [um] of the bores K..ZC from the shaft's ei.
 double tight_bore_um(const Asked& a, double ei_um) {
   using enum Grade;
   if (a.grade < IT3)
-    refuse(a.text, "ISO 286-1 gives the bores K to ZC from grade 3 on only");
+    refuse(a.text, tr("ISO 286-1 gives the bores K to ZC from grade 3 on only"));
   const bool kmn = a.letter == "k" || a.letter == "m" || a.letter == "n";
   const bool smallest = a.range == 0;  // Delta = 0 there
   if (!at_most(a, kmn ? IT8 : IT7)) {
     if (a.letter == "k" && !smallest)
-      refuse(a.text, "K above 3 mm is made in the grades 3 to 8 only");
+      refuse(a.text, tr("K above 3 mm is made in the grades 3 to 8 only"));
     if (a.letter == "n" && a.nominal_mm <= 1)
-      refuse(a.text, "N coarser than grade 8 is not used up to 1 mm");
+      refuse(a.text, tr("N coarser than grade 8 is not used up to 1 mm"));
     return a.letter == "n" && !smallest ? 0 : -ei_um;
   }
   if (smallest) return -ei_um;
@@ -247,8 +248,8 @@ part::Limits mm(double lower_um, double upper_um) {
 double it_um(double nominal_mm, Grade grade) {
   const std::size_t range = index_of(nominal_mm, kRangeTo);
   if (grade >= Grade::IT14 && nominal_mm <= 1)
-    throw std::domain_error(fmt::format(
-        "nominal size {} mm: IT14 and coarser are not used up to 1 mm", nominal_mm));
+    throw std::domain_error(
+        say("nominal size {} mm: IT14 and coarser are not used up to 1 mm", nominal_mm));
   return kIT[static_cast<std::size_t>(grade)][range];
 }
 
@@ -260,7 +261,7 @@ part::Limits fit_limits_mm(double nominal_mm, std::string_view tolerance_class) 
     return a.bore ? mm(j_um(a) - it, j_um(a)) : mm(j_um(a), j_um(a) + it);
   if (const auto loose = magnitude_um(a, kLooseByStep, kLooseByRange)) {
     if (nominal_mm <= 1 && (a.letter == "a" || a.letter == "b"))
-      refuse(a.text, "a and b, A and B are not used up to 1 mm");
+      refuse(a.text, tr("a and b, A and B are not used up to 1 mm"));
     return a.bore ? mm(*loose, *loose + it) : mm(-*loose - it, -*loose);
   }
   if (const auto tight = magnitude_um(a, kTightByStep, kTightByRange)) {
@@ -272,11 +273,10 @@ part::Limits fit_limits_mm(double nominal_mm, std::string_view tolerance_class) 
     const double ei = zero ? 0 : *tight;
     return mm(ei, ei + it);
   }
-  refuse(
-      tolerance_class,
-      fmt::format("ISO 286-1 has no letter {}; it has a b c cd d e ef f fg g h js j k m "
-                  "n p r s t u v x y z za zb zc, in capitals for bores",
-                  a.letter));
+  refuse(tolerance_class,
+         say("ISO 286-1 has no letter {}; it has a b c cd d e ef f fg g h js j k m "
+             "n p r s t u v x y z za zb zc, in capitals for bores",
+             a.letter));
 }
 
 }  // namespace turnwright::tolerance

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "base/say.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/base/least_squares.hpp"
 #include "turnwright/volumetric/kinematics.hpp"
@@ -198,8 +199,10 @@ BallBarFit decompose(const Trace& t) {
              opposed = solved(b.opposed, (ccw - cw) / 2);
   constexpr auto m = static_cast<Index>(kBallBarTerms.size());
   if (const Index rank = alike.rank + opposed.rank; rank < m)
-    throw ModelRangeError("decompose: the angles tell only " + std::to_string(rank) +
-                          " of the 12 terms apart; more angles over the whole circle do");
+    throw ModelRangeError(
+        say("decompose: the angles tell only {} of the 12 terms apart; "
+            "more angles over the whole circle do",
+            rank));
   const double values = 2 * static_cast<double>(t.theta_rad.size());
   const double rss = 2 * (alike.rss + opposed.rss);
   const double s = std::sqrt(rss / (values - static_cast<double>(m)));
@@ -228,15 +231,17 @@ double fitted_mm(const BallBarFit& fit, double R_mm, double theta_rad, double di
 
 std::vector<std::string> confounded(Plane plane) {
   const auto [u, v] = axes_of(plane);
-  const std::string U(1, u), V(1, v);
-  return {"cos 3 theta carries E" + U + U + "2 - E" + U + V + "2: E" + U + V +
-              "2 is read as if E" + U + U + "2 were 0",
-          "sin 3 theta carries E" + V + V + "2 - E" + V + U + "2: E" + V + U +
-              "2 is read as if E" + V + V + "2 were 0",
-          "cos 2 theta carries the scale mismatch and the cubic E" + U + U + "3, E" + V +
-              V + "3",
-          "sin 2 theta carries the squareness and the cubic straightness E" + V + U +
-              "3, E" + U + V + "3"};
+  return {say("cos 3 theta carries E{0}{0}2 - E{0}{1}2: E{0}{1}2 is read as if E{0}{0}2 "
+              "were 0",
+              u, v),
+          say("sin 3 theta carries E{1}{1}2 - E{1}{0}2: E{1}{0}2 is read as if E{1}{1}2 "
+              "were 0",
+              u, v),
+          say("cos 2 theta carries the scale mismatch and the cubic E{0}{0}3, E{1}{1}3",
+              u, v),
+          say("sin 2 theta carries the squareness and the cubic straightness E{1}{0}3, "
+              "E{0}{1}3",
+              u, v)};
 }
 
 }  // namespace turnwright::volumetric

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/say.hpp"
 #include "turnwright/base/cancelled.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/base/least_squares.hpp"
@@ -462,15 +463,16 @@ Compensated compensate(const NcProgram& program, const Machine& machine,
     out.lines.push_back(writer.block(*s.move, s.command, s.first, s.last));
     run.go(s);
     if (out.lines.size() > setup.moves_max)
-      throw ModelRangeError("compensate: line " + std::to_string(s.move->line) +
-                            ": more than " + std::to_string(setup.moves_max) +
-                            " moves; a wider tolerance makes fewer");
+      throw ModelRangeError(
+          say("compensate: line {}: more than {} moves; a wider tolerance makes fewer",
+              s.move->line, setup.moves_max));
     const double is = norm(s.error),
                  left = norm(field.error(*s.tool, s.command, s.sign, s.target));
     // The rounding of a coordinate is 0.5e-3 mm at most.
     if (full && !s.stays && !s.takes_up && !(left <= is / 2 + 1e-3))
-      throw ModelRangeError("compensate: line " + std::to_string(s.move->line) +
-                            ": errors too large to be corrected by iteration");
+      throw ModelRangeError(
+          say("compensate: line {}: errors too large to be corrected by iteration",
+              s.move->line));
     out.largest_correction_mm =
         std::max(out.largest_correction_mm, norm(s.command - s.target));
     before.add(is);

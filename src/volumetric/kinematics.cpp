@@ -7,6 +7,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "turnwright/base/language.hpp"
+
 namespace turnwright::volumetric {
 
 double sense(std::string_view chain, char axis) {
@@ -15,13 +17,14 @@ double sense(std::string_view chain, char axis) {
 
 std::string chain_fault(std::string_view chain) {
   if (chain.size() < 3 || chain.front() != 'w' || chain.back() != 't')
-    return "it runs from w to t";
+    return tr("it runs from w to t");
   const auto inner = chain.substr(1, chain.size() - 2);
-  if (std::ranges::count(inner, 'f') != 1) return "it has one bed f between w and t";
+  if (std::ranges::count(inner, 'f') != 1) return tr("it has one bed f between w and t");
   for (const char c : inner) {
     if (c == 'f') continue;
-    if (letter_index(c) == std::string_view::npos) return "its axes are of X Y Z A B C";
-    if (std::ranges::count(inner, c) > 1) return "each axis comes once";
+    if (letter_index(c) == std::string_view::npos)
+      return tr("its axes are of X Y Z A B C");
+    if (std::ranges::count(inner, c) > 1) return tr("each axis comes once");
   }
   return "";
 }

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "base/say.hpp"
 #include "turnwright/base/cancelled.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/volumetric/kinematics.hpp"
@@ -182,10 +183,9 @@ class Builder {
     leave_if_asked();
     const Size size = size_of(strategy_, names_);
     if (!size.solvable())
-      throw ModelRangeError("samba: " + std::to_string(size.equations) +
-                            " equations of " + std::to_string(size.unknowns) +
-                            " unknowns, at most " + std::to_string(kCoefficients) +
-                            " coefficients are solved");
+      throw ModelRangeError(
+          say("samba: {} equations of {} unknowns, at most {} coefficients are solved",
+              size.equations, size.unknowns, kCoefficients));
     const Vector3d n = column(strategy_.facet_normal).normalized();
     each_probing(
         strategy_,
@@ -445,13 +445,13 @@ std::vector<Remedy> remedies(const SambaStrategy& strategy,
     turned += fmt::format("{}{:.1f} ({})", turned.empty() ? "" : ", ",
                           units::deg_from_rad(at.C_rad), i + 1);
   }
-  try_out("decouple C from B: C at, deg (indexation), " + turned);
+  try_out(say("decouple C from B: C at, deg (indexation), {}", turned));
   const Vec3 tip = strategy.styli_mm.front();
   changed.styli_mm = {tip, {tip[0], tip[1], tip[2] - 60}};
-  try_out("probe with two stylus lengths, 60 mm apart");
+  try_out(tr("probe with two stylus lengths, 60 mm apart"));
   changed.styli_mm.push_back({tip[0] + 60, tip[1], tip[2] - 30});
   changed.styli_mm.push_back({tip[0], tip[1] + 60, tip[2] - 30});
-  try_out("probe with a star of tips, 60 mm off the axis in X and Y");
+  try_out(tr("probe with a star of tips, 60 mm off the axis in X and Y"));
   return out;
 }
 

@@ -7,6 +7,7 @@
 
 #include "chatter/fundamental_matrix/collocation_grid.hpp"
 #include "turnwright/base/errors.hpp"
+#include "turnwright/base/language.hpp"
 
 namespace turnwright::chatter {
 namespace {
@@ -28,9 +29,9 @@ class Map {
     for (const Stretch& stretch : cut.all) {
       size_ += static_cast<Index>(stretch.h.size()) * (cut.used[0] + cut.used[1]);
       if (size_ > static_cast<Index>(kLargest))
-        throw TooManyVibrations(
+        throw TooManyVibrations(tr(
             "milling: too many vibrations fall into one tooth period for stability to be "
-            "computed; ask for a higher speed or a smaller depth");
+            "computed; ask for a higher speed or a smaller depth"));
       steps_.push_back(step(system, cut, stretch, ap_mm));
     }
   }

@@ -9,6 +9,7 @@
 #include "chatter/model/free_vibration.hpp"
 #include "turnwright/base/cancelled.hpp"
 #include "turnwright/base/errors.hpp"
+#include "turnwright/base/language.hpp"
 #include "turnwright/base/units.hpp"
 
 namespace turnwright::chatter {
@@ -116,8 +117,8 @@ void DelayMap::lay_out(double turns, const std::vector<double>& longest,
       size_ += axes_ * static_cast<Index>(nodes);
       if (size_ > kMostUnknowns)
         throw TooManyVibrations(
-            "milling: a period of this cutter holds too many vibrations; ask for a "
-            "higher speed or a smaller depth");
+            tr("milling: a period of this cutter holds too many vibrations; ask for a "
+               "higher speed or a smaller depth"));
     }
   }
 }

@@ -7,6 +7,7 @@
 
 #include "turnwright/base/cancelled.hpp"
 #include "turnwright/base/errors.hpp"
+#include "turnwright/base/language.hpp"
 #include "turnwright/base/units.hpp"
 
 namespace turnwright::chatter {
@@ -196,8 +197,8 @@ Coefficients Characteristic::at(Complex kappa, double kappa_max) const {
   leave_if_asked();
   work_ += p.stretches.size() * m * m;
   if (work_ > kWork)
-    throw TooManyVibrations(
-        "milling: the search takes too long; ask for a smaller depth or a higher speed");
+    throw TooManyVibrations(tr(
+        "milling: the search takes too long; ask for a smaller depth or a higher speed"));
   Coefficients out;
   out.c.assign(m + 1, 0);
   Product whole = product(p, kappa);

@@ -5,6 +5,7 @@
 
 #include "chatter/model/quadrature.hpp"
 #include "turnwright/base/errors.hpp"
+#include "turnwright/base/language.hpp"
 #include "turnwright/base/units.hpp"
 
 namespace turnwright::chatter {
@@ -123,9 +124,9 @@ class Stretcher {
     const auto least = arc.root_at_begin && arc.root_at_end ? 2.0 : 1.0;
     const double pieces = std::max(least, std::ceil(length / longest));
     if (!(static_cast<double>(out_.all.size()) + pieces < kStretches))
-      throw TooManyVibrations(
+      throw TooManyVibrations(tr(
           "milling: a tooth period holds too many vibrations to follow; ask for a higher "
-          "speed or a smaller depth");
+          "speed or a smaller depth"));
     const double piece = length / pieces;
     const std::size_t nodes =
         nodes_for((rooted ? 2 : 1) * piece * turns / 2, resolution_.error);

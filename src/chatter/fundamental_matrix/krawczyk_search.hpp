@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/say.hpp"
 #include "taylor_patch.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/base/units.hpp"
@@ -97,14 +98,13 @@ class Search {
     if ((box.theta_half < kSmallest && box.w_half < kSmallest * box.w) ||
         box.theta_half < kNothing || box.w_half < kNothing * box.w)
       throw ModelRangeError(
-          "milling: multipliers that meet on the circle cannot be told apart; ask for "
-          "another speed");
+          tr("milling: multipliers that meet on the circle cannot be told apart; ask for "
+             "another speed"));
     if (++boxes_ > kBoxes)
       throw ModelRangeError(
-          "milling: the search for stability limits at a speed needs "
-          "more than " +
-          std::to_string(kBoxes) +
-          " boxes; ask for a smaller ap_max_mm or a higher speed");
+          say("milling: the search for stability limits at a speed needs more than {} "
+              "boxes; ask for a smaller ap_max_mm or a higher speed",
+              kBoxes));
     constexpr double kInflation =
         1.01;  // so that zeros on the borders of boxes are found
     Box wide = box;

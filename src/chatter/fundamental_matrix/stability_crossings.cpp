@@ -243,7 +243,8 @@ class Winding {
  private:
   double go(const Box& box, const Patch* above) {
     constexpr double kSmallest = 1e-13;
-    if (box.theta_half < kSmallest || ++boxes_ > kBoxes) throw ModelRangeError(kOnCircle);
+    if (box.theta_half < kSmallest || ++boxes_ > kBoxes)
+      throw ModelRangeError(tr(kOnCircle));
     std::optional<Patch> own;
     const Complex u = box.u();
     const Patch* patch = patches_.pick(above, disc(box, u, rho_), own);
@@ -276,7 +277,7 @@ int whole_turns(double angle, std::size_t m) {
   const double turns = static_cast<double>(m / 2) - angle / kPi,
                whole = std::round(turns);
   if (!(std::abs(turns - whole) < 1e-3))
-    throw ModelRangeError(kOnCircle);  // the chords' angles are only rounding
+    throw ModelRangeError(tr(kOnCircle));  // the chords' angles are only rounding
   return static_cast<int>(whole);
 }
 

@@ -4,14 +4,16 @@
 #include <vector>
 
 #include "taylor_patch.hpp"
+#include "turnwright/base/language.hpp"
 #include "turnwright/chatter/stability_limits.hpp"
 #include "turnwright/chatter/system.hpp"
 
 namespace turnwright::chatter {
 
-inline constexpr const char* kOnCircle =
-    "milling: a multiplier lies on the unit circle to within rounding, so the cut is on "
-    "a limit of stability; ask for a slightly different speed or depth";
+inline constexpr const char* kOnCircle = to_translate(
+    "milling: a multiplier lies on the unit circle to within rounding, so the "
+    "cut is on a limit of stability; ask for a slightly different speed or "
+    "depth");
 
 /// A depth at which a multiplier e^(i theta) lies on the unit circle.
 struct OnCircle {

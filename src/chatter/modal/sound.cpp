@@ -11,6 +11,7 @@
 #include "median.hpp"
 #include "turnwright/base/cancelled.hpp"
 #include "turnwright/base/errors.hpp"
+#include "turnwright/base/language.hpp"
 #include "turnwright/base/units.hpp"
 
 namespace turnwright::chatter {
@@ -236,14 +237,14 @@ class Listener {
 Heard listen(const Sound& sound, const ListenOptions& options) {
   if (kLeastTurns * 60 / options.n_rpm * sound.rate_Hz > kMostSamples)
     throw ModelRangeError(
-        "listen: 16 revolutions have more than 1,048,576 samples; record at a lower "
-        "rate");
+        tr("listen: 16 revolutions have more than 1,048,576 samples; record at a lower "
+           "rate"));
   const double length_s = static_cast<double>(sound.value.size()) / sound.rate_Hz;
   if (!(length_s * options.n_rpm / 60 >= kLeastTurns && length_s >= kLeast_s))
     throw ModelRangeError(
-        "listen: the sound is shorter than 16 revolutions or 0.05 s: the harmonics of "
-        "the "
-        "spindle cannot be told from chatter");
+        tr("listen: the sound is shorter than 16 revolutions or 0.05 s: the harmonics of "
+           "the "
+           "spindle cannot be told from chatter"));
   return Listener(sound, options).heard();
 }
 

@@ -7,6 +7,7 @@
 #include "eigenvalues.hpp"
 #include "turnwright/base/cancelled.hpp"
 #include "turnwright/base/errors.hpp"
+#include "turnwright/base/language.hpp"
 
 namespace turnwright::chatter {
 namespace {
@@ -67,8 +68,8 @@ Spectrum by_arnoldi(Index size, const LinearMap& map) {
     if (last) break;
   }
   throw ModelRangeError(
-      "milling: the largest multiplier cannot be told from others as large; ask for a "
-      "higher speed");
+      tr("milling: the largest multiplier cannot be told from others as large; ask for a "
+         "higher speed"));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/say.hpp"
 #include "chatter/model/eigenvalues.hpp"
 #include "chatter/model/free_vibration.hpp"
 #include "turnwright/base/cancelled.hpp"
@@ -113,10 +114,10 @@ Dominant simulation(const System& system, double n_rpm, double ap_mm,
                     const SimulationOptions& options) {
   const double asked = simulation_steps(system, n_rpm, options);
   if (!(asked <= options.most_steps))
-    throw ModelRangeError("a period of the simulation takes " +
-                          std::to_string(std::llround(asked)) + " steps, and at most " +
-                          std::to_string(std::llround(options.most_steps)) +
-                          " are simulated; a higher speed has fewer");
+    throw ModelRangeError(
+        say("a period of the simulation takes {} steps, and at most {} are simulated; a "
+            "higher speed has fewer",
+            std::llround(asked), std::llround(options.most_steps)));
   const Grid steps = grid(system, n_rpm, options.steps_per_rad);
   const std::size_t size = steps.step.size();
   State u(2 * system.modes.size());

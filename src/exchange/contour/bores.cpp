@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/say.hpp"
 #include "centre_hole.hpp"
 #include "elements.hpp"
 #include "turnwright/base/errors.hpp"
@@ -48,9 +49,8 @@ void require_point(const Side& s) {
   if (deg < 89 || deg > 151)
     throw InputError(
         "profile",
-        {{place(s.sources, s.from),
-          fmt::format("a bore that ends in a point of {:.4g} deg", deg),
-          "a flat bottom, or the point of a drill, 90 to 150 deg", "geometry"}});
+        {{place(s.sources, s.from), say("a bore that ends in a point of {:.4g} deg", deg),
+          tr("a flat bottom, or the point of a drill, 90 to 150 deg"), "geometry"}});
 }
 
 // A plane in the place of the drill's point at the bottom of a blind bore.
@@ -58,7 +58,8 @@ void take_point(std::vector<Side>& sides, double join_mm, Outline& out) {
   const auto leave = [&](const Side& point) {
     require_point(point);
     out.assumed.push_back(
-        {named({point}), "The conical bottom of the bore is left to the drill's point."});
+        {named({point}),
+         tr("The conical bottom of the bore is left to the drill's point.")});
   };
   Side &first = sides.front(), &last = sides.back();
   if (!last.centre && falls_to_axis(last.from, last.to, join_mm)) {
@@ -127,10 +128,13 @@ void add_blind_bore(Outline& out, Bore bore, part::End from, double join_mm) {
     return;
   }
   if (like_centre_hole(bore.sides, join_mm)) {
-    out.assumed.push_back({named(bore.sides),
-                           fmt::format("The centre hole at the {} end is drilled where a "
-                                       "clamping needs it.",
-                                       from == part::End::left ? "left" : "right")});
+    out.assumed.push_back(
+        {named(bore.sides),
+         from == part::End::left
+             ? say("The centre hole at the left end is drilled where a "
+                   "clamping needs it.")
+             : say("The centre hole at the right end is drilled where a "
+                   "clamping needs it.")});
     return;
   }
   take_point(bore.sides, join_mm, out);

@@ -8,6 +8,7 @@
 
 #include "thread_undercut.hpp"
 #include "turnwright/base/errors.hpp"
+#include "turnwright/base/language.hpp"
 #include "turnwright/base/units.hpp"
 
 namespace turnwright::exchange {
@@ -292,10 +293,10 @@ Chain chain_of(const std::vector<Side>& sides, double join_mm) {
     if (dx(items[i]) < -join_mm)
       throw InputError(
           "profile",
-          {{place(s.sources, s.from), "a surface that leads back along the axis",
-            "a contour that a tool can follow from end to end: grooves in "
-            "faces and recesses behind shoulders have no place in a part "
-            "document",
+          {{place(s.sources, s.from), tr("a surface that leads back along the axis"),
+            tr("a contour that a tool can follow from end to end: grooves in "
+               "faces and recesses behind shoulders have no place in a part "
+               "document"),
             "geometry"}});
     if (items[i].kind == Kind::wall) {
       auto& of = chain.walls.back();

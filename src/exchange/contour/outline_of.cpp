@@ -1,8 +1,7 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
+#include "base/say.hpp"
 #include "elements.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/exchange/profile.hpp"
@@ -23,16 +22,16 @@ double apart_mm(const Point& a, const Point& b) {
 }
 
 void check_numbers(const std::vector<Side>& sides, double join_mm) {
-  if (sides.empty()) refuse({}, {}, "no sides", "a closed half profile");
+  if (sides.empty()) refuse({}, {}, tr("no sides"), tr("a closed half profile"));
   for (const Side& s : sides) {
     const auto finite = [](const Point& p) {
       return std::isfinite(p.z_mm) && std::isfinite(p.r_mm);
     };
     if (!finite(s.from) || !finite(s.to) || (s.centre && !finite(*s.centre)))
-      refuse(s.sources, {}, "a place that is no number", "finite coordinates");
+      refuse(s.sources, {}, tr("a place that is no number"), tr("finite coordinates"));
     if (s.from.r_mm < -join_mm || s.to.r_mm < -join_mm)
-      refuse(s.sources, s.from.r_mm < 0 ? s.from : s.to, "a side below the axis",
-             "the half profile on one side of the axis");
+      refuse(s.sources, s.from.r_mm < 0 ? s.from : s.to, tr("a side below the axis"),
+             tr("the half profile on one side of the axis"));
   }
 }
 
@@ -47,11 +46,10 @@ void join(std::vector<Side>& sides, double join_mm) {
     }
     if (!(apart_mm(a.to, b.from) <= join_mm))
       refuse(a.sources, a.to,
-             fmt::format(
-                 "a gap of {:.6g} mm between z = {:g}, r = {:g} and z = {:g}, r = "
+             say("a gap of {:.6g} mm between z = {:g}, r = {:g} and z = {:g}, r = "
                  "{:g} mm",
                  apart_mm(a.to, b.from), a.to.z_mm, a.to.r_mm, b.from.z_mm, b.from.r_mm),
-             "a closed half profile");
+             tr("a closed half profile"));
     b.from = a.to;
   }
 }
@@ -118,8 +116,8 @@ std::size_t end_face(const std::vector<Side>& sides, double z_mm, bool left,
   }
   if (!found)
     refuse({}, {z_mm, 0},
-           std::string("no plane at the ") + (left ? "left" : "right") + " end",
-           "a part that ends in a plane: points and balls are not turned to the end");
+           left ? tr("no plane at the left end") : tr("no plane at the right end"),
+           tr("a part that ends in a plane: points and balls are not turned to the end"));
   return *found;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/say.hpp"
 #include "elements.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/base/units.hpp"
@@ -9,18 +10,18 @@
 namespace turnwright::exchange {
 namespace {
 
-void leave_sharp(Outline& out, const std::string& at, const Corner& c, const char* why) {
-  std::string what = c.kind == Corner::Kind::chamfer    ? "chamfer"
-                     : c.kind == Corner::Kind::fillet   ? "fillet"
-                     : c.kind == Corner::Kind::undercut ? "undercut"
-                     : c.kind == Corner::Kind::rounded  ? "rounded edge"
-                                                        : "recess in the corner";
+void leave_sharp(Outline& out, const std::string& at, const Corner& c,
+                 const std::string& why) {
+  std::string what = c.kind == Corner::Kind::chamfer    ? tr("chamfer")
+                     : c.kind == Corner::Kind::fillet   ? tr("fillet")
+                     : c.kind == Corner::Kind::undercut ? tr("undercut")
+                     : c.kind == Corner::Kind::rounded  ? tr("rounded edge")
+                                                        : tr("recess in the corner");
   const double size = c.kind == Corner::Kind::chamfer ? c.axial_mm : c.radius_mm;
-  const std::string of =
-      size > 0 ? fmt::format(" of {:.6g} mm", tidy_mm(size)) : std::string();
+  const std::string of = size > 0 ? say(" of {:.6g} mm", tidy_mm(size)) : std::string();
   out.ignored.push_back(
       {c.sources.empty() ? at : fmt::format("{}", fmt::join(c.sources, ", ")),
-       fmt::format("The {}{} at {} is left out: {}.", what, of, at, why)});
+       say("The {}{} at {} is left out: {}.", what, of, at, why)});
 }
 
 // Whether a document can have such an edge between these two: at grooves only chamfers, and
@@ -65,9 +66,9 @@ void add_corner(Outline& out, const std::string& at, const Corner& c, const Elem
     } else if (c.kind == Corner::Kind::fillet) {
       e.fillet_mm = tidy_mm(c.radius_mm);
       out.assumed.push_back(
-          {at, fmt::format("The radius of {:g} mm at {} is the largest that may stay: a "
-                           "tool's smaller corner may cut it.",
-                           *e.fillet_mm, at)});
+          {at, say("The radius of {:g} mm at {} is the largest that may stay: a "
+                   "tool's smaller corner may cut it.",
+                   *e.fillet_mm, at)});
     } else {
       e.undercut = c.undercut;
       e.pitch_mm = c.pitch_mm;
@@ -77,15 +78,15 @@ void add_corner(Outline& out, const std::string& at, const Corner& c, const Elem
   if (c.kind == Corner::Kind::recess)
     leave_sharp(
         out, at, c,
-        "it is none of DIN 509's forms F, G and H with the sizes of their table, the "
-        "corner stays sharp");
+        tr("it is none of DIN 509's forms F, G and H with the sizes of their table, the "
+           "corner stays sharp"));
   else if (!plain(a, b, c))
     leave_sharp(out, at, c,
                 c.kind == Corner::Kind::rounded
-                    ? "only edges of cylinders are rounded"
-                    : "edges beside grooves and arcs are left to their tools");
+                    ? tr("only edges of cylinders are rounded")
+                    : tr("edges beside grooves and arcs are left to their tools"));
   else if (face && c.kind != Corner::Kind::chamfer && c.kind != Corner::Kind::rounded)
-    leave_sharp(out, at, c, "the corner lies at the bottom of a bore");
+    leave_sharp(out, at, c, tr("the corner lies at the bottom of a bore"));
   else
     edge();
 }
@@ -96,9 +97,9 @@ void add_outside(Outline& out, const Parts& parts, double join_mm) {
   sides.push_back(parts.right);
   const Chain chain = chain_of(sides, join_mm);
   if (chain.bands.empty())
-    throw InputError(
-        "profile", {{place(parts.left.sources, parts.left.from), "a part without length",
-                     "an outer contour", "geometry"}});
+    throw InputError("profile",
+                     {{place(parts.left.sources, parts.left.from),
+                       tr("a part without length"), tr("an outer contour"), "geometry"}});
   for (const Band& b : chain.bands) {
     out.outer.push_back(element_of(b));
     out.outer.back().id = fmt::format("d{}", out.outer.size());

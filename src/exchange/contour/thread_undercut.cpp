@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/say.hpp"
 #include "turnwright/part/metric_thread.hpp"
 
 namespace turnwright::exchange {
@@ -33,15 +34,13 @@ bool fits(const Edge& e, const Element& of) {
 }
 
 void leave_out(Outline& o, const Edge& e, const Element& of) {
-  const std::string why =
-      of.shape == Shape::thread
-          ? fmt::format("{} has a pitch of {:g} mm", of.id, pitch_mm(of))
-          : fmt::format("{} is no thread; if it is M{:g}x{:g}, say so", of.id, of.left_mm,
-                        e.pitch_mm);
+  const std::string why = of.shape == Shape::thread
+                              ? say("{} has a pitch of {:g} mm", of.id, pitch_mm(of))
+                              : say("{} is no thread; if it is M{:g}x{:g}, say so", of.id,
+                                    of.left_mm, e.pitch_mm);
   o.ignored.push_back(
       {fmt::format("{}", fmt::join(e.sources, ", ")),
-       fmt::format(
-           "The undercut at {} is left out: it is the {} of a thread with a pitch "
+       say("The undercut at {} is left out: it is the {} of a thread with a pitch "
            "of {:g} mm, and {}.",
            e.at, *e.undercut, e.pitch_mm, why)});
 }

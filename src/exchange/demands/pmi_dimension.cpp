@@ -4,6 +4,7 @@
 
 #include "exchange/records/step_unit.hpp"
 #include "pmi_read.hpp"
+#include "turnwright/base/language.hpp"
 
 namespace turnwright::exchange {
 namespace {
@@ -34,7 +35,8 @@ ByDimension by_dimension(const Exchange& file, std::string_view relation, std::s
 
 double measured_value(const Instance& measure, Sized& sized) {
   const auto found = step_measure(measure);
-  if (!found) measure.record(0).refuse("no length or angle", "a measure with its unit");
+  if (!found)
+    measure.record(0).refuse(tr("no length or angle"), tr("a measure with its unit"));
   sized.quantity = found->quantity;
   return found->quantity == Quantity::length ? length_mm(measure) : found->value;
 }
@@ -128,7 +130,8 @@ Sized sized(const Instance& dimension, const ByDimension& shown,
   each(shown, read_representation);
   each(ranges, read_range);
   if (all.lower && all.upper && !(*all.lower <= *all.upper))
-    dimension.record(0).refuse("a lower limit above the upper one", "lower <= upper");
+    dimension.record(0).refuse(tr("a lower limit above the upper one"),
+                               tr("lower <= upper"));
   return all;
 }
 
@@ -143,7 +146,8 @@ NamedDimension named_dimension(const Instance& dimension, Features& features) {
     return {.name = short_text(size->name), .of = features.of(size->of.instance())};
   const auto both = ends_of_location(dimension);
   if (!both)
-    dimension.record(0).refuse("too few parameters", "the features it is between");
+    dimension.record(0).refuse(tr("too few parameters"),
+                               tr("the features it is between"));
   return {.name = short_text(both->name),
           .of = features.of(both->from.instance()),
           .to = features.of(both->to.instance())};

@@ -2,6 +2,7 @@
 
 #include "pmi_feature.hpp"
 #include "pmi_read.hpp"
+#include "turnwright/base/language.hpp"
 
 namespace turnwright::exchange {
 namespace {
@@ -124,8 +125,8 @@ Feature Features::of(const Instance& aspect) {
 
 void Features::throw_if_spent() const {
   if (left_ > 0) return;
-  throw InputError("", {{"", "features that share their faces many times over",
-                         "features that a drawing could show", "range"}});
+  throw InputError("", {{"", tr("features that share their faces many times over"),
+                         tr("features that a drawing could show"), "range"}});
 }
 
 }  // namespace turnwright::exchange

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "base/say.hpp"
 #include "exchange/records/step_unit.hpp"
 
 namespace turnwright::exchange {
@@ -28,8 +29,7 @@ std::vector<Instance> instances_of(const Exchange& file,
 
 Parameter of_last(const Record& record, std::size_t n, std::size_t i) {
   if (record.size() < n)
-    record.refuse(std::to_string(record.size()) + " parameters",
-                  "at least " + std::to_string(n));
+    record.refuse(say("{} parameters", record.size()), say("at least {}", n));
   return record[record.size() - n + i];
 }
 
@@ -40,7 +40,7 @@ std::vector<Instance> references(const Parameter& parameter, std::size_t most) {
     const auto next = waiting.back();
     waiting.pop_back();
     if (next.is(ValueKind::reference)) {
-      if (found.size() == most) parameter.refuse("at most " + std::to_string(most));
+      if (found.size() == most) parameter.refuse(say("at most {}", most));
       found.push_back(next.instance());
     } else if (next.is(ValueKind::typed)) {
       waiting.push_back(next.inner());
@@ -70,7 +70,7 @@ std::vector<Instance> representation_items(const Instance& representation,
       waiting.insert(waiting.end(), inner.rbegin(), inner.rend());
     }
     if (found.size() + waiting.size() + opened.size() > most)
-      list.refuse("at most " + std::to_string(most) + " items");
+      list.refuse(say("at most {} items", most));
   }
   return found;
 }
@@ -80,9 +80,9 @@ double rounded_mm(double x_mm) { return std::round(x_mm * kDigits) / kDigits; }
 double length_mm(const Instance& measure) {
   const auto found = step_measure(measure);
   if (!found || found->quantity != Quantity::length)
-    measure.record(0).refuse("no length", "a length with its unit");
+    measure.record(0).refuse(tr("no length"), tr("a length with its unit"));
   if (!(std::abs(found->value) < kLongest_mm))
-    measure.record(0).refuse("10 km or more", "the length of a part");
+    measure.record(0).refuse(tr("10 km or more"), tr("the length of a part"));
   return rounded_mm(found->value);
 }
 
@@ -93,24 +93,24 @@ std::string lower_case(std::string text) {
 
 std::string short_text(const Parameter& parameter) {
   auto text = parameter.short_text();
-  if (!text || text->size() > kLongestText) parameter.refuse("at most 200 bytes");
+  if (!text || text->size() > kLongestText) parameter.refuse(tr("at most 200 bytes"));
   return std::move(*text);
 }
 
 std::string in_words(const Parameter& enumeration) {
   const auto word = enumeration.word();
-  if (word.size() > kLongestText) enumeration.refuse("at most 200 bytes");
+  if (word.size() > kLongestText) enumeration.refuse(tr("at most 200 bytes"));
   auto text = lower_case(std::string(word));
   std::replace(text.begin(), text.end(), '_', ' ');
   return text;
 }
 
 std::string reason(const InputError& error) {
-  if (error.problems().empty()) return "It cannot be read.";
+  if (error.problems().empty()) return tr("It cannot be read.");
   const auto& first = error.problems().front();
   const auto shown = [](const std::string& text) { return text.substr(0, kLongestText); };
-  return "It cannot be read: " + shown(first.pointer) + " is " + shown(first.got) +
-         ", expected " + shown(first.expected) + ".";
+  return say("It cannot be read: {} is {}, expected {}.", shown(first.pointer),
+             shown(first.got), shown(first.expected));
 }
 
 }  // namespace turnwright::exchange

@@ -1,5 +1,6 @@
 #include "exchange/records/step_unit.hpp"
 #include "pmi_read.hpp"
+#include "turnwright/base/language.hpp"
 
 namespace turnwright::exchange {
 namespace {
@@ -24,7 +25,7 @@ void read_texture(const Instance& relation, Features& features, Pmi& pmi) {
     }
   }
   if (!value_mm)
-    representation.record(0).refuse("no length", "the roughness with its unit");
+    representation.record(0).refuse(tr("no length"), tr("the roughness with its unit"));
   texture.value_um = rounded_mm(*value_mm) * kUmPerMm;
   texture.of = features.of(property[2].instance());
   pmi.textures.push_back(std::move(texture));

@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "base/say.hpp"
 #include "pmi_read.hpp"
 
 namespace turnwright::exchange {
@@ -17,21 +18,24 @@ struct SymbolFacts {
 };
 
 constexpr std::array<SymbolFacts, 15> kSymbols{
-    {{Symbol::angularity, "ANGULARITY_TOLERANCE", "angularity"},
-     {Symbol::circular_runout, "CIRCULAR_RUNOUT_TOLERANCE", "circular run-out"},
-     {Symbol::coaxiality, "COAXIALITY_TOLERANCE", "coaxiality"},
-     {Symbol::concentricity, "CONCENTRICITY_TOLERANCE", "concentricity"},
-     {Symbol::cylindricity, "CYLINDRICITY_TOLERANCE", "cylindricity"},
-     {Symbol::flatness, "FLATNESS_TOLERANCE", "flatness"},
-     {Symbol::line_profile, "LINE_PROFILE_TOLERANCE", "line profile"},
-     {Symbol::parallelism, "PARALLELISM_TOLERANCE", "parallelism"},
-     {Symbol::perpendicularity, "PERPENDICULARITY_TOLERANCE", "perpendicularity"},
-     {Symbol::position, "POSITION_TOLERANCE", "position"},
-     {Symbol::roundness, "ROUNDNESS_TOLERANCE", "roundness"},
-     {Symbol::straightness, "STRAIGHTNESS_TOLERANCE", "straightness"},
-     {Symbol::surface_profile, "SURFACE_PROFILE_TOLERANCE", "surface profile"},
-     {Symbol::symmetry, "SYMMETRY_TOLERANCE", "symmetry"},
-     {Symbol::total_runout, "TOTAL_RUNOUT_TOLERANCE", "total run-out"}}};
+    {{Symbol::angularity, "ANGULARITY_TOLERANCE", to_translate("angularity")},
+     {Symbol::circular_runout, "CIRCULAR_RUNOUT_TOLERANCE",
+      to_translate("circular run-out")},
+     {Symbol::coaxiality, "COAXIALITY_TOLERANCE", to_translate("coaxiality")},
+     {Symbol::concentricity, "CONCENTRICITY_TOLERANCE", to_translate("concentricity")},
+     {Symbol::cylindricity, "CYLINDRICITY_TOLERANCE", to_translate("cylindricity")},
+     {Symbol::flatness, "FLATNESS_TOLERANCE", to_translate("flatness")},
+     {Symbol::line_profile, "LINE_PROFILE_TOLERANCE", to_translate("line profile")},
+     {Symbol::parallelism, "PARALLELISM_TOLERANCE", to_translate("parallelism")},
+     {Symbol::perpendicularity, "PERPENDICULARITY_TOLERANCE",
+      to_translate("perpendicularity")},
+     {Symbol::position, "POSITION_TOLERANCE", to_translate("position")},
+     {Symbol::roundness, "ROUNDNESS_TOLERANCE", to_translate("roundness")},
+     {Symbol::straightness, "STRAIGHTNESS_TOLERANCE", to_translate("straightness")},
+     {Symbol::surface_profile, "SURFACE_PROFILE_TOLERANCE",
+      to_translate("surface profile")},
+     {Symbol::symmetry, "SYMMETRY_TOLERANCE", to_translate("symmetry")},
+     {Symbol::total_runout, "TOTAL_RUNOUT_TOLERANCE", to_translate("total run-out")}}};
 
 // Bounds of what one frame says of its datums; drawings have three letters.  Frames may
 // share a system, so that without them a small file could ask for much.
@@ -58,7 +62,7 @@ ToleranceFrame tolerance_frame(const Instance& tolerance, std::string_view entit
 std::vector<std::string> datum_modifiers(const Parameter& list) {
   std::vector<std::string> all;
   if (list.absent()) return all;
-  if (list.size() > kMostModifiers) list.refuse("at most 12 modifiers");
+  if (list.size() > kMostModifiers) list.refuse(tr("at most 12 modifiers"));
   for (std::size_t i = 0; i < list.size(); ++i) {
     auto modifier = list[i];
     while (modifier.is(ValueKind::typed)) modifier = modifier.inner();
@@ -76,7 +80,8 @@ using Letters = std::map<Id, std::string>;
 
 const std::string& letter(const Instance& datum, const Letters& letters) {
   const auto found = letters.find(datum.id());
-  if (found == letters.end()) datum.record(0).refuse("no datum", "a datum with a letter");
+  if (found == letters.end())
+    datum.record(0).refuse(tr("no datum"), tr("a datum with a letter"));
   return found->second;
 }
 
@@ -85,7 +90,7 @@ Record general_reference(const Instance& reference) {
   for (const auto name : {"GENERAL_DATUM_REFERENCE", "DATUM_REFERENCE_COMPARTMENT",
                           "DATUM_REFERENCE_ELEMENT"})
     if (const auto r = reference.find(name); r && r->size() >= 2) return *r;
-  reference.record(0).refuse("no datum", "a datum reference");
+  reference.record(0).refuse(tr("no datum"), tr("a datum reference"));
 }
 
 void append_words(std::vector<std::string>& to, std::vector<std::string> more) {
@@ -143,7 +148,7 @@ std::vector<DatumReference> datums(const Parameter& list, const Letters& known) 
     letters += datum.letters.size();
   }
   if (modifiers > kMostModifiers || letters > kMostDatums)
-    list.refuse("at most 6 datums with 12 modifiers in all");
+    list.refuse(tr("at most 6 datums with 12 modifiers in all"));
   return all;
 }
 
@@ -154,12 +159,12 @@ std::string length_text(const Parameter& measure) {
 std::string per_unit(const Instance& tolerance) {
   const auto unit = tolerance.find("GEOMETRIC_TOLERANCE_WITH_DEFINED_UNIT");
   if (!unit) return "";
-  auto text = "per " + length_text(of_last(*unit, 1, 0));
+  auto text = say("per {}", length_text(of_last(*unit, 1, 0)));
   const auto area = tolerance.find("GEOMETRIC_TOLERANCE_WITH_DEFINED_AREA_UNIT");
   if (!area) return text;
   text += " " + in_words(of_last(*area, 2, 0));
   const auto second = of_last(*area, 2, 1);
-  return second.absent() ? text : text + " by " + length_text(second);
+  return second.absent() ? text : say("{} by {}", text, length_text(second));
 }
 
 std::vector<std::string> own_modifiers(const Instance& tolerance) {
@@ -171,9 +176,9 @@ std::vector<std::string> own_modifiers(const Instance& tolerance) {
   if (const auto r = tolerance.find("MODIFIED_GEOMETRIC_TOLERANCE"))
     all.push_back(in_words(of_last(*r, 1, 0)));
   if (const auto r = tolerance.find("UNEQUALLY_DISPOSED_GEOMETRIC_TOLERANCE"))
-    all.push_back("unequally disposed by " + length_text(of_last(*r, 1, 0)));
+    all.push_back(say("unequally disposed by {}", length_text(of_last(*r, 1, 0))));
   if (const auto r = tolerance.find("GEOMETRIC_TOLERANCE_WITH_MAXIMUM_TOLERANCE"))
-    all.push_back("at most " + length_text(of_last(*r, 1, 0)));
+    all.push_back(say("at most {}", length_text(of_last(*r, 1, 0))));
   if (auto unit = per_unit(tolerance); !unit.empty()) all.push_back(std::move(unit));
   return all;
 }

@@ -1,7 +1,6 @@
-#include <fmt/format.h>
-
 #include <map>
 
+#include "base/say.hpp"
 #include "pmi_read.hpp"
 
 namespace turnwright::exchange {
@@ -32,7 +31,7 @@ void read_form(const Instance& zone, const ByInstance& tolerances) {
   const bool spherical = text == "spherical" || text == "within a sphere";
   each_tolerance(zone, tolerances, [&](GeometricTolerance& t) {
     t.diametral = is_diametral(text);
-    if (spherical) t.modifiers.push_back("spherical zone");
+    if (spherical) t.modifiers.push_back(tr("spherical zone"));
   });
 }
 
@@ -40,11 +39,11 @@ void read_form(const Instance& zone, const ByInstance& tolerances) {
 void read_definition(const Instance& definition, const ByInstance& tolerances) {
   std::string text;
   if (const auto r = definition.find("PROJECTED_ZONE_DEFINITION"))
-    text = fmt::format("projected by {} mm", length_mm(of_last(*r, 1, 0).instance()));
+    text = say("projected by {} mm", length_mm(of_last(*r, 1, 0).instance()));
   else if (definition.is("NON_UNIFORM_ZONE_DEFINITION"))
-    text = "non-uniform zone";
+    text = tr("non-uniform zone");
   else
-    text = "measured at a given angle";
+    text = tr("measured at a given angle");
   const auto general = definition.find("TOLERANCE_ZONE_DEFINITION");
   const auto zone =
       (general && general->size() >= 1 ? *general : definition.record(0))[0];
@@ -58,8 +57,8 @@ void read_composite(const Instance& relation, const ByInstance& tolerances) {
   if (lower_case(r[0].short_text().value_or("")) != "composite") return;
   const auto lower = tolerances.find(r[3].id());
   if (lower != tolerances.end())
-    lower->second->modifiers.push_back("lower segment of the composite tolerance " +
-                                       name_of(r[2].id()));
+    lower->second->modifiers.push_back(
+        say("lower segment of the composite tolerance {}", name_of(r[2].id())));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <string_view>
 
+#include "base/say.hpp"
 #include "pmi_read.hpp"
 #include "step_pmi_place.hpp"
 
@@ -59,22 +60,22 @@ void add_product(const Pmi& pmi, Outline& outline) {
 
 void leave_texture_out(const SurfaceTexture& t, const std::string& reason,
                        Outline& outline) {
-  outline.ignored.push_back({t.at, fmt::format("The roughness {} {} um is left out: {}.",
-                                               t.parameter, t.value_um, reason)});
+  outline.ignored.push_back({t.at, say("The roughness {} {} um is left out: {}.",
+                                       t.parameter, t.value_um, reason)});
 }
 
 void add_texture(const SurfaceTexture& t, const Places& places, Outline& outline) {
   const bool Ra = t.parameter == "Ra";
   if (!Ra && t.parameter != "Rz")
-    return leave_texture_out(t, "a part document has Ra and Rz", outline);
+    return leave_texture_out(t, tr("a part document has Ra and Rz"), outline);
   if (!(t.value_um > 0 && t.value_um <= (Ra ? kRoughest_um : kDeepest_um)))
-    return leave_texture_out(t, "no surface has it; is its unit right?", outline);
+    return leave_texture_out(t, tr("no surface has it; is its unit right?"), outline);
   const auto of = places.of(t.of);
   if (of.empty())
-    return leave_texture_out(t, "its surface is not in the outline", outline);
+    return leave_texture_out(t, tr("its surface is not in the outline"), outline);
   for (const auto& place : of) {
     if (place.kind == PlaceKind::other) {
-      leave_texture_out(t, place.id + " is " + name(place.kind), outline);
+      leave_texture_out(t, say("{} is {}", place.id, tr(name(place.kind))), outline);
       continue;
     }
     auto& demands = place.is_face() ? outline.faces[place.index].demands
@@ -88,13 +89,12 @@ void leave_out_angles(const Pmi& pmi, Outline& outline) {
   const auto deg = [](double rad) { return rad * 180 / std::numbers::pi; };
   for (const auto& a : pmi.angles) {
     if (!a.lower_rad || !a.upper_rad) continue;
-    auto text = a.name.empty() ? std::string("angle") : a.name;
+    auto text = a.name.empty() ? tr("angle") : a.name;
     if (a.nominal_rad) text += fmt::format(" {:.9g}", deg(*a.nominal_rad));
     outline.ignored.push_back(
-        {a.at,
-         fmt::format("The {} {:+.9g}/{:+.9g} deg is left out: a part document has no "
-                     "tolerances of angles.",
-                     text, deg(*a.upper_rad), deg(*a.lower_rad))});
+        {a.at, say("The {} {:+.9g}/{:+.9g} deg is left out: a part document has no "
+                   "tolerances of angles.",
+                   text, deg(*a.upper_rad), deg(*a.lower_rad))});
   }
 }
 
@@ -108,20 +108,19 @@ void tell_strokes(const Pmi& pmi, Outline& outline) {
   if (strokes.empty()) return;
   if (!has_data(pmi)) {
     outline.ignored.push_back(
-        {"", fmt::format("Dimensions and tolerances are drawn only: {} annotations are "
-                         "strokes without data, of which nothing was read.",
-                         pmi.annotations)});
+        {"", say("Dimensions and tolerances are drawn only: {} annotations are "
+                 "strokes without data, of which nothing was read.",
+                 pmi.annotations)});
     return;
   }
   constexpr std::size_t kShown = 10;
   const auto shown = std::min(strokes.size(), kShown);
   outline.ignored.push_back(
-      {"",
-       fmt::format("{} of {} annotations are strokes without data: {}{}.", strokes.size(),
-                   pmi.annotations,
-                   fmt::join(strokes.begin(),
-                             strokes.begin() + static_cast<std::ptrdiff_t>(shown), ", "),
-                   shown < strokes.size() ? " .." : "")});
+      {"", say("{} of {} annotations are strokes without data: {}{}.", strokes.size(),
+               pmi.annotations,
+               fmt::join(strokes.begin(),
+                         strokes.begin() + static_cast<std::ptrdiff_t>(shown), ", "),
+               shown < strokes.size() ? " .." : "")});
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <set>
 
+#include "turnwright/base/language.hpp"
+
 namespace turnwright::exchange {
 namespace {
 
@@ -26,17 +28,17 @@ std::map<std::string, double> face_positions(const Outline& outline) {
 const char* name(PlaceKind kind) {
   switch (kind) {
     case PlaceKind::cylinder:
-      return "a cylinder";
+      return to_translate("a cylinder");
     case PlaceKind::cone:
-      return "a cone";
+      return to_translate("a cone");
     case PlaceKind::cut:
-      return "an arc, groove or thread";
+      return to_translate("an arc, groove or thread");
     case PlaceKind::face:
-      return "a face";
+      return to_translate("a face");
     case PlaceKind::other:
       break;
   }
-  return "an edge or a milled place";
+  return to_translate("an edge or a milled place");
 }
 
 Places::Places(const Outline& outline) : z_mm_(face_positions(outline)) {

@@ -3,6 +3,7 @@
 
 #include <map>
 
+#include "base/say.hpp"
 #include "step_pmi_place.hpp"
 
 namespace turnwright::exchange {
@@ -22,19 +23,21 @@ std::string described_datum(const DatumReference& d) {
 
 /// "position of diameter 1.27 mm (maximum material requirement) to A, B".
 std::string described_tolerance(const GeometricTolerance& t) {
-  auto text = std::string(name(t.symbol)) + " tolerance";
+  auto text = say("{} tolerance", tr(name(t.symbol)));
   if (t.width_mm)
-    text += fmt::format(" of {}{} mm", t.diametral ? "diameter " : "", *t.width_mm);
+    text += t.diametral ? say(" of diameter {} mm", *t.width_mm)
+                        : say(" of {} mm", *t.width_mm);
   if (!t.modifiers.empty()) text += fmt::format(" ({})", fmt::join(t.modifiers, ", "));
   for (std::size_t i = 0; i < t.datums.size(); ++i)
-    text += (i == 0 ? " to " : ", ") + described_datum(t.datums[i]);
+    text += i == 0 ? say(" to {}", described_datum(t.datums[i]))
+                   : ", " + described_datum(t.datums[i]);
   return text;
 }
 
 void leave_tolerance_out(const GeometricTolerance& t, const std::string& reason,
                          Outline& outline) {
   outline.ignored.push_back(
-      {t.at, "The " + described_tolerance(t) + " is left out: " + reason + "."});
+      {t.at, say("The {} is left out: {}.", described_tolerance(t), reason)});
 }
 
 // The kind of a symbol on an element or on a face; nothing for those a part document lacks.
@@ -98,10 +101,10 @@ Toleranced datum_suits(DatumFeature wanted, const Place& toleranced) {
   return Toleranced::element_or_face;
 }
 
-const char* wanted_feature(Toleranced of) {
-  if (of == Toleranced::cylinder) return "a cylinder";
-  if (of == Toleranced::element) return "a cylinder or cone";
-  return of == Toleranced::face ? "a face" : "an element or a face";
+std::string wanted_feature(Toleranced of) {
+  if (of == Toleranced::cylinder) return tr("a cylinder");
+  if (of == Toleranced::element) return tr("a cylinder or cone");
+  return of == Toleranced::face ? tr("a face") : tr("an element or a face");
 }
 
 // What is said of the axis of a feature, as the zone or the aspect has it.
@@ -109,20 +112,20 @@ bool is_of_axis(const GeometricTolerance& t) { return t.of.axis || t.diametral; 
 
 // What stands in the way whatever the tolerance is of; "" if nothing does.
 std::string obstacle(const GeometricTolerance& t) {
-  if (!t.width_mm) return "the file gives no value";
+  if (!t.width_mm) return tr("the file gives no value");
   if (!(*t.width_mm > 0 && *t.width_mm <= kWidest_mm))
-    return "a part document has values > 0 and up to 10 mm";
-  if (!t.modifiers.empty()) return "a part document has no such modifier";
+    return tr("a part document has values > 0 and up to 10 mm");
+  if (!t.modifiers.empty()) return tr("a part document has no such modifier");
   for (const auto& d : t.datums)
-    if (!d.modifiers.empty()) return "a part document has no modifiers of datums";
+    if (!d.modifiers.empty()) return tr("a part document has no modifiers of datums");
   const bool form = t.symbol == Symbol::straightness || t.symbol == Symbol::flatness ||
                     t.symbol == Symbol::roundness || t.symbol == Symbol::cylindricity ||
                     t.symbol == Symbol::circular_runout ||
                     t.symbol == Symbol::total_runout;
   if (form && is_of_axis(t))
-    return "a part document has it of a surface, not of an axis or median plane";
+    return tr("a part document has it of a surface, not of an axis or median plane");
   if (t.symbol == Symbol::position && !is_of_axis(t))
-    return "a part document has the position of an axis, in a cylindrical zone";
+    return tr("a part document has the position of an axis, in a cylindrical zone");
   return "";
 }
 
@@ -146,11 +149,11 @@ Datums datums_of(const Pmi& pmi, const Places& places) {
     const auto found = places.of(datum.of);
     auto& place = all[letter];
     if (datum.targets)
-      place.reason = "datum " + letter + " is made of datum targets";
+      place.reason = say("datum {} is made of datum targets", letter);
     else if (found.empty())
-      place.reason = "datum " + letter + " is not in the outline";
+      place.reason = say("datum {} is not in the outline", letter);
     else if (found.size() > 1)
-      place.reason = "datum " + letter + " is on more than one feature: " + ids(found);
+      place.reason = say("datum {} is on more than one feature: {}", letter, ids(found));
     else
       place.place = found.front();
   }
@@ -160,7 +163,7 @@ Datums datums_of(const Pmi& pmi, const Places& places) {
 DatumPlace datum_of(const std::string& letter, const Datums& datums) {
   const auto found = datums.find(letter);
   if (found != datums.end()) return found->second;
-  return {.reason = "the file has no datum " + letter};
+  return {.reason = say("the file has no datum {}", letter)};
 }
 
 // What a tolerance refers to: nothing, one place, or two for a common datum A-B.
@@ -175,16 +178,17 @@ Reference reference_of(const GeometricTolerance& t, const Datums& datums) {
   std::vector<std::string> letters;
   for (const auto& d : t.datums)
     letters.insert(letters.end(), d.letters.begin(), d.letters.end());
-  if (letters.empty() && !t.datums.empty()) return {.reason = "its datum has no letter"};
+  if (letters.empty() && !t.datums.empty())
+    return {.reason = tr("its datum has no letter")};
   const bool common = t.datums.size() == 1 && letters.size() == 2;
   if (letters.size() > 1 && !common) {
     std::string where;
     for (const auto& letter : letters)
       if (const auto datum = datum_of(letter, datums); datum.place)
-        where += fmt::format("{} {} is {}", where.empty() ? ";" : ",", letter,
-                             datum.place->id);
-    return {.reason = "a part document has one datum, or the common one of two elements" +
-                      where};
+        where += (where.empty() ? "; " : ", ") + say("{} is {}", letter, datum.place->id);
+    return {.reason =
+                tr("a part document has one datum, or the common one of two elements") +
+                where};
   }
   Reference all;
   for (const auto& letter : letters) {
@@ -199,20 +203,21 @@ Reference reference_of(const GeometricTolerance& t, const Datums& datums) {
 std::string unsuitable(const std::vector<Place>& datum, const part::ToleranceFacts& facts,
                        const Place& of) {
   if ((facts.datum == DatumFeature::none) != datum.empty())
-    return datum.empty() ? "it has no datum" : "it has no datum in a part document";
+    return datum.empty() ? tr("it has no datum")
+                         : tr("it has no datum in a part document");
   const bool common = datum.size() > 1;
   if (common && datum.front().id == datum.back().id)
-    return "both elements of its common datum are " + datum.front().id;
+    return say("both elements of its common datum are {}", datum.front().id);
   for (const auto& place : datum) {
-    if (!common && place.id == of.id) return "its datum is " + place.id + " itself";
+    if (!common && place.id == of.id) return say("its datum is {} itself", place.id);
     auto wanted = datum_suits(facts.datum, of);
     if (common && wanted == Toleranced::element_or_face) wanted = Toleranced::element;
     if (!suits(wanted, place))
-      return fmt::format("its datum is {} in a part document, and {} is {}",
-                         wanted_feature(wanted), place.id, name(place.kind));
+      return say("its datum is {} in a part document, and {} is {}",
+                 wanted_feature(wanted), place.id, tr(name(place.kind)));
   }
   if (common && datum_suits(facts.datum, of) == Toleranced::face)
-    return "its datum is one face in a part document";
+    return tr("its datum is one face in a part document");
   return "";
 }
 
@@ -220,16 +225,17 @@ void add_to(const Place& place, const GeometricTolerance& t,
             const std::vector<Place>& datum, Outline& outline) {
   const auto kind = tolerance_kind(t.symbol, place.is_face(), !datum.empty());
   if (!kind)
-    return leave_tolerance_out(t, "a part document has no tolerance of this kind",
+    return leave_tolerance_out(t, tr("a part document has no tolerance of this kind"),
                                outline);
   if (place.kind == PlaceKind::cut)
-    return leave_tolerance_out(t, place.id + " is made at fixed conditions", outline);
+    return leave_tolerance_out(t, say("{} is made at fixed conditions", place.id),
+                               outline);
   const auto& facts = part::facts(*kind);
   if (!suits(facts.of, place))
     return leave_tolerance_out(
         t,
-        fmt::format("it is of {} in a part document, and {} is {}",
-                    wanted_feature(facts.of), place.id, name(place.kind)),
+        say("it is of {} in a part document, and {} is {}", wanted_feature(facts.of),
+            place.id, tr(name(place.kind))),
         outline);
   if (const auto reason = unsuitable(datum, facts, place); !reason.empty())
     return leave_tolerance_out(t, reason, outline);
@@ -250,7 +256,7 @@ void add_tolerance(const GeometricTolerance& t, const Datums& datums,
     return leave_tolerance_out(t, reason, outline);
   const auto of = places.of(t.of);
   if (of.empty())
-    return leave_tolerance_out(t, "its feature is not in the outline", outline);
+    return leave_tolerance_out(t, tr("its feature is not in the outline"), outline);
   const auto datum = reference_of(t, datums);
   if (!datum.reason.empty()) return leave_tolerance_out(t, datum.reason, outline);
   for (const auto& place : of) add_to(place, t, datum.places, outline);

@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 
+#include "base/say.hpp"
 #include "dxf_file.hpp"
 #include "dxf_graph.hpp"
 
@@ -176,9 +177,9 @@ std::optional<Axis> through_open_ends(const std::vector<Stroke>& strokes, double
   for (const Place& p : ends)
     if (std::abs(axis.local(p).y) > join_mm) return std::nullopt;
   if (!one_sided(extents(axis, strokes), join_mm)) return std::nullopt;
-  assumed.push_back({"",
-                     "The drawing has no centre line; the axis is taken to join the "
-                     "open ends of its half profile."});
+  assumed.push_back(
+      {"", tr("The drawing has no centre line; the axis is taken to join the "
+              "open ends of its half profile.")});
   return axis;
 }
 
@@ -191,10 +192,10 @@ std::optional<Axis> at_origin(const std::vector<Stroke>& strokes, double join_mm
   const Extents e = extents(axis, strokes);
   if (!touches(e, join_mm) || (whole && !closed_along(axis, e, strokes, join_mm)))
     return std::nullopt;
-  assumed.push_back({"", std::string("The drawing has no centre line; the axis is taken "
-                                     "to be ") +
-                             (along_x ? "y" : "x") +
-                             " = 0, on which the contour of its half profile lies."});
+  assumed.push_back(
+      {"", say("The drawing has no centre line; the axis is taken to be {} = 0, on "
+               "which the contour of its half profile lies.",
+               along_x ? "y" : "x")});
   return axis;
 }
 
@@ -228,10 +229,11 @@ std::optional<Axis> of_symmetry(const std::vector<Stroke>& strokes, double join_
     }
   }
   if (best)
-    assumed.push_back({"", both ? "The drawing has no centre line and is symmetric both "
-                                  "ways; the axis is taken to run along x."
-                                : "The drawing has no centre line; the axis of its "
-                                  "symmetry is taken as that of the part."});
+    assumed.push_back(
+        {"", both ? tr("The drawing has no centre line and is symmetric both "
+                       "ways; the axis is taken to run along x.")
+                  : tr("The drawing has no centre line; the axis of its "
+                       "symmetry is taken as that of the part.")});
   return best;
 }
 
@@ -240,14 +242,15 @@ std::optional<Axis> of_symmetry(const std::vector<Stroke>& strokes, double join_
 Axis find_axis(const std::vector<Stroke>& strokes, double join_mm,
                std::vector<Remark>& assumed) {
   if (std::none_of(strokes.begin(), strokes.end(), is_contour))
-    refuse("", "no lines of a contour", "lines and arcs on a layer for the contour");
+    refuse("", tr("no lines of a contour"),
+           tr("lines and arcs on a layer for the contour"));
   if (const auto axis = of_centre_lines(strokes, join_mm)) return *axis;
   if (const auto axis = through_open_ends(strokes, join_mm, assumed)) return *axis;
   if (const auto axis = at_origin(strokes, join_mm, true, assumed)) return *axis;
   if (const auto axis = of_symmetry(strokes, join_mm, assumed)) return *axis;
   if (const auto axis = at_origin(strokes, join_mm, false, assumed)) return *axis;
-  refuse("", "no axis: no centre line, no symmetric contour, none that ends on y = 0",
-         "a centre line of line type CENTER or on a layer of that name");
+  refuse("", tr("no axis: no centre line, no symmetric contour, none that ends on y = 0"),
+         tr("a centre line of line type CENTER or on a layer of that name"));
 }
 
 std::vector<Stroke> along(const Axis& axis, const std::vector<Stroke>& strokes) {

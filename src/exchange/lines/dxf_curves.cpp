@@ -1,4 +1,5 @@
 #include "dxf_strokes.hpp"
+#include "turnwright/base/language.hpp"
 #include "turnwright/base/units.hpp"
 
 namespace turnwright::exchange::dxf {
@@ -8,8 +9,8 @@ constexpr double kFarthest_mm = 1e7;  // 1e-16 of it is below any tolerance here
 
 Place checked(const Place& p, const Entity& entity) {
   if (!(std::abs(p.x) <= kFarthest_mm && std::abs(p.y) <= kFarthest_mm))
-    refuse(entity.name(), "a point more than 10 km from the origin",
-           "the part near the drawing's origin");
+    refuse(entity.name(), tr("a point more than 10 km from the origin"),
+           tr("the part near the drawing's origin"));
   return p;
 }
 
@@ -30,7 +31,8 @@ class Pen {
   // About a centre by a signed angle; in two parts unless it is less than half a turn.
   void arc(const Place& from, const Place& to, const Place& centre, double turn_rad) {
     if (!to_mm_.keeps_circles())
-      refuse(entity_.name(), "an arc in a block of unequal scales", "arcs of circles");
+      refuse(entity_.name(), tr("an arc in a block of unequal scales"),
+             tr("arcs of circles"));
     if (std::abs(turn_rad) > 0.99 * units::kPi) {
       const Place u = from - centre;
       const double half = turn_rad / 2, c = std::cos(half), s = std::sin(half);
@@ -70,7 +72,7 @@ void draw_arc(const Entity& e, Pen& pen) {
   const double R = e.number_or(40, 0);
   const double from = units::rad_from_deg(e.number_or(50, 0)),
                to = units::rad_from_deg(e.number_or(51, 0));
-  if (!(R > 0)) refuse(e.name(), "an arc without a radius", "a radius > 0");
+  if (!(R > 0)) refuse(e.name(), tr("an arc without a radius"), tr("a radius > 0"));
   double turn = std::fmod(to - from, 2 * units::kPi);
   if (turn <= 0) turn += 2 * units::kPi;
   const auto on_circle = [&](double a) {
@@ -122,7 +124,7 @@ void draw_polyline(const Entity& e, const std::vector<Vertex>& vertices, Pen& pe
   constexpr long kClosed = 1, kMesh = 16 | 64;
   const long flags = e.integer_or(70, 0);
   if ((flags & kMesh) != 0 && e.type == "POLYLINE")
-    refuse(e.name(), "a mesh", "lines and arcs");
+    refuse(e.name(), tr("a mesh"), tr("lines and arcs"));
   for (std::size_t i = 1; i < vertices.size(); ++i)
     pen.bulge(vertices[i - 1].at, vertices[i].at, vertices[i - 1].bulge);
   if ((flags & kClosed) != 0 && vertices.size() > 1)

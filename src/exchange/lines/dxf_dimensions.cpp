@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "base/say.hpp"
 #include "dxf_text.hpp"
 #include "exchange/text/notation_words.hpp"
 #include "turnwright/base/pattern.hpp"
@@ -46,7 +47,7 @@ class Dimensions {
     for (const Note& n : view_.drawn->notes) add(n);
     if (listed_ > kMostListed)
       out_.ignored.push_back(
-          {"", fmt::format("{} texts and dimensions in all are not used.", listed_)});
+          {"", say("{} texts and dimensions in all are not used.", listed_)});
   }
 
  private:
@@ -56,14 +57,14 @@ class Dimensions {
   }
 
   void ignore(const Dimension& d, const std::string& shown, const std::string& why) {
-    list(d.name, fmt::format("The dimension \"{}\" {}.",
-                             shown.empty() ? "of the measured size" : shown, why));
+    list(d.name, say("The dimension \"{}\" {}.",
+                     shown.empty() ? tr("of the measured size") : shown, why));
   }
 
   void add(const Dimension& d) {
     const std::string shown = shown_text(d.text);
     auto words = said(shown);
-    if (!words) return ignore(d, shown, "has words that are not understood");
+    if (!words) return ignore(d, shown, tr("has words that are not understood"));
     if (d.limits && !words->demands.fit && !words->demands.limits)
       words->demands.limits = d.limits;  // in mm already
     else if (words->demands.limits)
@@ -78,12 +79,12 @@ class Dimensions {
     const bool measured =
         d.kind == Dimension::Kind::linear || d.kind == Dimension::Kind::aligned;
     if (!measured || !(length(along) > 0))
-      return ignore(d, shown, "does not measure a diameter or a length");
+      return ignore(d, shown, tr("does not measure a diameter or a length"));
     const double size = length(along);
     if (std::abs(along.x) <= kDirection * size)
       return add_diameter(d, shown, *words, a, b);
     if (std::abs(along.y) <= kDirection * size) return add_length(d, shown, *words, a, b);
-    ignore(d, shown, "is neither along the axis nor across it");
+    ignore(d, shown, tr("is neither along the axis nor across it"));
   }
 
   // Whether the text has the size that is drawn, or none.
@@ -92,7 +93,7 @@ class Dimensions {
     if (!words.size) return true;
     const double says_mm = *words.size * (words.thread ? 1 : view_.drawn->unit_mm);
     if (std::abs(says_mm - drawn_mm) <= kSameSize * drawn_mm) return true;
-    ignore(d, shown, fmt::format("does not say the drawn size, {:.6g} mm", drawn_mm));
+    ignore(d, shown, say("does not say the drawn size, {:.6g} mm", drawn_mm));
     return false;
   }
 
@@ -107,7 +108,7 @@ class Dimensions {
     const bool both = std::abs(a.y + b.y) <= within_;
     const bool one = std::min(std::abs(a.y), std::abs(b.y)) <= within_ && words.diameter;
     if (!both && !one)
-      return asks(words) ? ignore(d, shown, "does not measure from side to side")
+      return asks(words) ? ignore(d, shown, tr("does not measure from side to side"))
                          : void();
     if (!drawn_size(d, shown, words, 2 * r) || !asks(words)) return;
     std::vector<Element*> on;
@@ -123,7 +124,7 @@ class Dimensions {
     if (on.size() != 1)
       return ignore(
           d, shown,
-          on.empty() ? "lies on no cylinder" : "lies on more than one cylinder");
+          on.empty() ? tr("lies on no cylinder") : tr("lies on more than one cylinder"));
     give(d, shown, words, *on[0]);
   }
 
@@ -131,7 +132,7 @@ class Dimensions {
     Demands& has = e.demands;
     const Demands& asked = words.demands;
     if ((has.fit || has.limits) && (asked.fit || asked.limits))
-      return ignore(d, shown, "asks for a second size of " + e.id);
+      return ignore(d, shown, say("asks for a second size of {}", e.id));
     if (words.thread && e.shape == Shape::cylinder) {
       e.shape = Shape::thread;
       e.pitch_mm = words.pitch;
@@ -160,10 +161,10 @@ class Dimensions {
     const std::string from = face_at(std::min(a.x, b.x)),
                       to = face_at(std::max(a.x, b.x));
     if (from.empty() || to.empty() || from == to)
-      return ignore(d, shown, "does not measure between two faces");
+      return ignore(d, shown, tr("does not measure between two faces"));
     if (!words.demands.limits || words.diameter || words.thread || words.demands.Ra_um ||
         words.demands.Rz_um)
-      return ignore(d, shown, "asks something that a length cannot have");
+      return ignore(d, shown, tr("asks something that a length cannot have"));
     part::Tolerance t;
     t.id = fmt::format("t{}", out_.tolerances.size() + 1);
     t.kind = part::ToleranceKind::length;
@@ -183,7 +184,7 @@ class Dimensions {
     if (m && out_.general.empty())
       out_.general = "ISO 2768-" + (*m)[1];
     else
-      list(n.name, fmt::format("The text \"{}\" is left to the reader.", shown));
+      list(n.name, say("The text \"{}\" is left to the reader.", shown));
   }
 
   void list(const std::string& at, std::string sentence) {

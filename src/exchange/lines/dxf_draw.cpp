@@ -4,6 +4,7 @@
 #include <map>
 #include <numbers>
 
+#include "base/say.hpp"
 #include "dxf_strokes.hpp"
 #include "turnwright/base/units.hpp"
 
@@ -37,7 +38,8 @@ class Drawing {
  public:
   Drawing(const File& file, std::optional<double> unit) : file_(file) {
     const double mm = unit ? *unit : unit_mm(file, out_.assumed);
-    if (!(mm > 0 && mm < 1e6)) refuse("unit_mm", fmt::format("{}", mm), "a length > 0");
+    if (!(mm > 0 && mm < 1e6))
+      refuse("unit_mm", fmt::format("{}", mm), tr("a length > 0"));
     out_.unit_mm = mm;
     frames_.push_back({&file.entities, nullptr, 0, {mm, 0, 0, mm, 0, 0}, "0", ""});
   }
@@ -51,12 +53,12 @@ class Drawing {
         continue;
       }
       if (++count > kMostEntities)
-        refuse("", fmt::format("more than {} entities", kMostEntities),
-               "the drawing of one part");
+        refuse("", say("more than {} entities", kMostEntities),
+               tr("the drawing of one part"));
       add((*f.entities)[f.next++]);
     }
     for (const auto& [text, n] : left_out_)
-      out_.ignored.push_back({"", fmt::format("{} x {}: not read.", n, text)});
+      out_.ignored.push_back({"", say("{} x {}: not read.", n, text)});
     return std::move(out_);
   }
 
@@ -67,8 +69,9 @@ class Drawing {
     std::string_view layer_name = "0", linetype_name = "BYLAYER";
     Groups groups = e.groups();
     for (auto g = groups.next(); g && g->code != 0; g = groups.next()) {
-      if (g->code == 67 && integer(*g) == 1) return leave("entity of the paper space");
-      if (g->code == 60 && integer(*g) == 1) return leave("invisible entity");
+      if (g->code == 67 && integer(*g) == 1)
+        return leave(tr("entity of the paper space"));
+      if (g->code == 60 && integer(*g) == 1) return leave(tr("invisible entity"));
       if (g->code == 8) layer_name = g->value;
       if (g->code == 6) linetype_name = g->value;
     }
@@ -76,7 +79,7 @@ class Drawing {
     if (layer == "0") layer = frame().layer;
     const auto known = file_.layers.find(layer);
     if (known != file_.layers.end() && !known->second.visible)
-      return leave(fmt::format("entity of the hidden layer {}", layer));
+      return leave(say("entity of the hidden layer {}", layer));
     if (linetype == "BYBLOCK") linetype = frame().linetype;
     if (linetype == "BYLAYER" || linetype.empty())
       linetype = known == file_.layers.end() ? "" : capital(known->second.linetype);
@@ -98,8 +101,8 @@ class Drawing {
   void leave_or_refuse(const Entity& e, Role role) {
     const bool curved = e.type == "SPLINE" || e.type == "ELLIPSE";
     if (curved && (role == Role::contour || role == Role::hidden))
-      refuse(e.name(), std::string(e.type) + " in the contour",
-             "lines and arcs of circles; other curves on a layer of their own");
+      refuse(e.name(), say("{} in the contour", e.type),
+             tr("lines and arcs of circles; other curves on a layer of their own"));
     leave(std::string(e.type));
   }
 
@@ -110,41 +113,41 @@ class Drawing {
     const double x = e.number_or(210, 0), y = e.number_or(220, 0),
                  z = e.number_or(230, 1);
     if (std::abs(x) > kTilt || std::abs(y) > kTilt)
-      refuse(e.name(), "an extrusion out of the drawing's plane", "a plane drawing");
+      refuse(e.name(), tr("an extrusion out of the drawing's plane"),
+             tr("a plane drawing"));
     return z < 0 ? frame().to_mm.after({-1, 0, 0, 1, 0, 0}) : frame().to_mm;
   }
 
   void add_curve(const Entity& e, Role role) {
-    if (role == Role::other) return leave(fmt::format("{} of a layer for notes", e.type));
+    if (role == Role::other) return leave(say("{} of a layer for notes", e.type));
     Stroke form;
     form.role = role;
     form.source = static_cast<std::uint32_t>(out_.sources.size());
     out_.sources.push_back(&e);
     add_strokes(e, placed(e), form, out_.strokes);
     if (out_.strokes.size() > kMostStrokes)
-      refuse(e.name(), fmt::format("more than {} lines and arcs", kMostStrokes),
-             "the contour of one part; other views on layers that are off");
+      refuse(e.name(), say("more than {} lines and arcs", kMostStrokes),
+             tr("the contour of one part; other views on layers that are off"));
   }
 
   void add_insert(const Entity& e, const std::string& layer,
                   const std::string& linetype) {
     const auto block = file_.blocks.find(capital(e.text_or(2, "")));
     if (block == file_.blocks.end())
-      refuse(e.name(), fmt::format("no block {}", e.text_or(2, "")),
-             "a block of the file");
+      refuse(e.name(), say("no block {}", e.text_or(2, "")), tr("a block of the file"));
     for (const Frame& f : frames_)
       if (f.block == &block->second)
-        refuse(e.name(), fmt::format("block {} within itself", block->first),
-               "blocks that do not insert themselves");
+        refuse(e.name(), say("block {} within itself", block->first),
+               tr("blocks that do not insert themselves"));
     if (frames_.size() > kDeepestBlock)
-      refuse(e.name(), fmt::format("blocks nested more than {} deep", kDeepestBlock),
-             "fewer");
+      refuse(e.name(), say("blocks nested more than {} deep", kDeepestBlock),
+             tr("fewer"));
     if (e.integer_or(70, 1) > 1 || e.integer_or(71, 1) > 1)
-      refuse(e.name(), "an array of blocks", "single ones");
+      refuse(e.name(), tr("an array of blocks"), tr("single ones"));
     const double angle = units::rad_from_deg(e.number_or(50, 0));
     const double c = std::cos(angle), s = std::sin(angle);
     const double sx = e.number_or(41, 1), sy = e.number_or(42, 1);
-    if (!(sx != 0 && sy != 0)) refuse(e.name(), "a scale of 0", "another");
+    if (!(sx != 0 && sy != 0)) refuse(e.name(), tr("a scale of 0"), tr("another"));
     Affine place{c * sx, s * sx, -s * sy, c * sy, e.number_or(10, 0), e.number_or(20, 0)};
     place = place.after({1, 0, 0, 1, -block->second.x, -block->second.y});
     const Affine to_mm = placed(e).after(place);

@@ -5,6 +5,7 @@
 
 #include "exchange/text/notation_words.hpp"
 #include "turnwright/base/errors.hpp"
+#include "turnwright/base/language.hpp"
 
 namespace turnwright::exchange::dxf {
 namespace {
@@ -48,8 +49,8 @@ class Sections {
       if (g->code != 0 || g->value == "ENDSEC") continue;
       if (g->value == "EOF") break;
       if (g->value != "SECTION")
-        refuse(at_line(g->line), quoted(g->value), "a SECTION of a DXF file");
-      const auto name = need("the name of a section");
+        refuse(at_line(g->line), quoted(g->value), tr("a SECTION of a DXF file"));
+      const auto name = need(to_translate("the name of a section"));
       if (name.value == "HEADER")
         read_header();
       else if (name.value == "TABLES")
@@ -61,27 +62,28 @@ class Sections {
       else
         skip();
     }
-    if (!entities) refuse("", "no section ENTITIES", "a drawing in a DXF file");
+    if (!entities) refuse("", tr("no section ENTITIES"), tr("a drawing in a DXF file"));
     return std::move(out_);
   }
 
  private:
   Group need(const char* what) {
     auto g = groups_.next();
-    if (!g) refuse("the end", "a file that breaks off", what);
+    if (!g) refuse("the end", tr("a file that breaks off"), tr(what));
     return *g;
   }
 
   static bool ends(const Group& g) { return g.code == 0 && g.value == "ENDSEC"; }
 
   void skip() {
-    while (!ends(need("the end of the section, ENDSEC"))) {
+    while (!ends(need(to_translate("the end of the section, ENDSEC")))) {
     }
   }
 
   void read_header() {
     std::string variable;
-    for (auto g = need("ENDSEC"); !ends(g); g = need("the end of the section, ENDSEC"))
+    for (auto g = need("ENDSEC"); !ends(g);
+         g = need(to_translate("the end of the section, ENDSEC")))
       if (g.code == 9)
         variable = g.value;
       else
@@ -91,7 +93,8 @@ class Sections {
   void read_tables() {
     Layer* layer = nullptr;
     DimensionStyle* style = nullptr;
-    for (auto g = need("ENDSEC"); !ends(g); g = need("the end of the section, ENDSEC")) {
+    for (auto g = need("ENDSEC"); !ends(g);
+         g = need(to_translate("the end of the section, ENDSEC"))) {
       if (g.code == 0) {
         layer = g.value == "LAYER" ? &unnamed_ : nullptr;
         style = g.value == "DIMSTYLE" ? &unnamed_style_ : nullptr;
@@ -116,11 +119,13 @@ class Sections {
   }
 
   void read_blocks() {
-    for (auto g = need("ENDSEC"); !ends(g); g = need("the end of the section, ENDSEC")) {
+    for (auto g = need("ENDSEC"); !ends(g);
+         g = need(to_translate("the end of the section, ENDSEC"))) {
       if (g.code != 0 || g.value != "BLOCK") continue;
       std::string name;
       Block block;
-      for (g = need("ENDBLK"); g.code != 0; g = need("the end of the block, ENDBLK")) {
+      for (g = need("ENDBLK"); g.code != 0;
+           g = need(to_translate("the end of the block, ENDBLK"))) {
         if (g.code == 2) name = capital(g.value);
         if (g.code == 10) block.x = number(g);
         if (g.code == 20) block.y = number(g);
@@ -133,7 +138,7 @@ class Sections {
   // Up to the group that ends them; `g` is read already.
   void read_entities(std::vector<Entity>& list, std::string_view end,
                      std::optional<Group> g = {}) {
-    if (!g) g = need("an entity or ENDSEC");
+    if (!g) g = need(to_translate("an entity or ENDSEC"));
     std::size_t before = groups_.position();
     while (g->code != 0 || g->value != end) {
       if (g->code == 0 && (g->value == "ENDSEC" || g->value == "EOF"))
@@ -142,10 +147,10 @@ class Sections {
         list.push_back({g->value, text_.substr(groups_.position(), 0), g->line + 2});
         before = groups_.position();
       } else if (list.empty() && g->code == 0) {
-        refuse(at_line(g->line), quoted(g->value), "a POLYLINE or INSERT before it");
+        refuse(at_line(g->line), quoted(g->value), tr("a POLYLINE or INSERT before it"));
       }
-      g = need(end == "ENDSEC" ? "the end of the section, ENDSEC"
-                               : "the end of the block, ENDBLK");
+      g = need(end == "ENDSEC" ? to_translate("the end of the section, ENDSEC")
+                               : to_translate("the end of the block, ENDBLK"));
       if (!list.empty() && (g->code != 0 || continues_entity(g->value)))
         list.back().body = text_.substr(before, groups_.position() - before);
     }
@@ -189,10 +194,10 @@ std::optional<Group> Groups::next() {
     const auto code = parsed<int>(code_text);
     if (!code)
       refuse(at_line(g.line), quoted(stripped(code_text)),
-             "a group code, a whole number");
+             tr("a group code, a whole number"));
     if (at_ >= text_.size())
-      refuse(at_line(g.line), "a group code without its value",
-             "a value on the next line");
+      refuse(at_line(g.line), tr("a group code without its value"),
+             tr("a value on the next line"));
     g.code = *code;
     g.value = stripped(take_line());
     constexpr int kComment = 999;
@@ -203,13 +208,13 @@ std::optional<Group> Groups::next() {
 double number(const Group& group) {
   const auto x = parsed<double>(group.value);
   if (!x || !std::isfinite(*x))
-    refuse(at_line(group.line + 1), quoted(group.value), "a number");
+    refuse(at_line(group.line + 1), quoted(group.value), tr("a number"));
   return *x;
 }
 
 long integer(const Group& group) {
   const auto x = parsed<long>(group.value);
-  if (!x) refuse(at_line(group.line + 1), quoted(group.value), "a whole number");
+  if (!x) refuse(at_line(group.line + 1), quoted(group.value), tr("a whole number"));
   return *x;
 }
 
@@ -246,9 +251,9 @@ std::string Entity::name() const {
 File read_file(std::string_view text) {
   constexpr std::string_view kBinary = "AutoCAD Binary DXF", kBom = "\xef\xbb\xbf";
   if (text.substr(0, kBinary.size()) == kBinary)
-    refuse("", "a binary DXF file", "an ASCII one: save it as such");
+    refuse("", tr("a binary DXF file"), tr("an ASCII one: save it as such"));
   if (text.substr(0, 3) == "AC1")
-    refuse("", "a DWG file", "DXF: save the drawing as such");
+    refuse("", tr("a DWG file"), tr("DXF: save the drawing as such"));
   if (text.substr(0, kBom.size()) == kBom) text.remove_prefix(kBom.size());
   return Sections(text).read();
 }

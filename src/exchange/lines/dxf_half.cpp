@@ -6,6 +6,8 @@
 #include <array>
 #include <set>
 
+#include "base/say.hpp"
+
 namespace turnwright::exchange::dxf {
 namespace {
 
@@ -81,7 +83,7 @@ class HalfReader {
           z1_ = std::max(z1_, place(n).x);
           any = any || !pruned_[k];
         }
-    if (!any) open_contour("a contour that is open everywhere");
+    if (!any) open_contour(tr("a contour that is open everywhere"));
     for (std::uint32_t k = 0; k < g().links.size(); ++k)
       if (contour(k) && !pruned_[k])
         for (const Node n : {g().links[k].from, g().links[k].to}) {
@@ -89,8 +91,8 @@ class HalfReader {
           if (at_right(n) && (right_ == kNone || place(n).y > place(right_).y))
             right_ = n;
         }
-    if (left_ == kNone) open_contour("no closed contour at the left end");
-    if (right_ == kNone) open_contour("no closed contour at the right end");
+    if (left_ == kNone) open_contour(tr("no closed contour at the left end"));
+    if (right_ == kNone) open_contour(tr("no closed contour at the right end"));
   }
 
   [[noreturn]] void open_contour(const std::string& got) const {
@@ -99,11 +101,10 @@ class HalfReader {
       if (places.size() == kNamed) break;
       places.push_back(view_.where(place(n)));
     }
-    refuse("",
-           got + (places.empty()
-                      ? ""
-                      : ": lines end at " + fmt::format("{}", fmt::join(places, "; "))),
-           "a contour that is closed or ends on the axis");
+    refuse(
+        "",
+        places.empty() ? got : say("{}: lines end at {}", got, fmt::join(places, "; ")),
+        tr("a contour that is closed or ends on the axis"));
   }
 
   // Along the outermost lines: at every corner the leftmost way.
@@ -116,12 +117,13 @@ class HalfReader {
       const auto ways = turning(g(), n, heading, Hand::left, [&](std::uint32_t k) {
         return contour(k) && !pruned_[k] && !used_[k];
       });
-      if (ways.empty()) open_contour("a contour that ends at " + view_.where(place(n)));
+      if (ways.empty())
+        open_contour(say("a contour that ends at {}", view_.where(place(n))));
       const Link& way = ways.front();
       n = way.to;
       if (seen[n] || (on_axis(n) && !at_right(n)))
-        open_contour("a contour that comes back to " + view_.where(place(n)) +
-                     " before the right end");
+        open_contour(say("a contour that comes back to {} before the right end",
+                         view_.where(place(n))));
       use(way);
       h_.outside.push_back(way);
       heading = g().arriving(way);
@@ -163,16 +165,14 @@ class HalfReader {
       if (!contour(k) || used_[k]) continue;
       for (const Node n : {g().links[k].from, g().links[k].to})
         if (place(n).y > outside_mm(place(n).x) + 2 * join_) {
-          places.push_back(view_.source(g().links[k].source) + " at " +
-                           view_.where(place(n)));
+          places.push_back(
+              say("{} at {}", view_.source(g().links[k].source), view_.where(place(n))));
           break;
         }
     }
     if (!places.empty())
-      refuse(
-          "",
-          fmt::format("lines outside of the closed contour: {}", fmt::join(places, "; ")),
-          "a closed outer contour, and other lines on layers for notes or off");
+      refuse("", say("lines outside of the closed contour: {}", fmt::join(places, "; ")),
+             tr("a closed outer contour, and other lines on layers for notes or off"));
   }
 
   // Lines of an end face from its outer corner to a bore's mouth, or to the axis.
@@ -185,7 +185,7 @@ class HalfReader {
         return contour(k) && upright(l) && place(l.to).y < place(n).y;
       });
       if (ways.empty())
-        open_contour(fmt::format("an end face that ends at {}", view_.where(place(n))));
+        open_contour(say("an end face that ends at {}", view_.where(place(n))));
       use(ways.front());
       out.push_back(ways.front());
       n = ways.front().to;

@@ -1,6 +1,6 @@
 #include "dxf_profile.hpp"
 
-#include <fmt/format.h>
+#include "base/say.hpp"
 
 namespace turnwright::exchange::dxf {
 namespace {
@@ -25,18 +25,18 @@ void tell(const Half& h, const View& view, ProfileRead& out) {
   for (const auto& b : h.graph.bridged)
     if (n++ < kListedRemarks)
       out.assumed.push_back(
-          {view.source(b.source), fmt::format("A gap of {:.3g} mm at {} was closed.",
-                                              b.gap_mm, view.where(b.at))});
+          {view.source(b.source),
+           say("A gap of {:.3g} mm at {} was closed.", b.gap_mm, view.where(b.at))});
   if (h.doubtful)
-    out.assumed.push_back({"",
-                           "Solid lines that begin at an end face are read as a bore, "
-                           "though shoulders are drawn as seen from outside; a slot "
-                           "belongs on a layer of its own."});
+    out.assumed.push_back(
+        {"", tr("Solid lines that begin at an end face are read as a bore, "
+                "though shoulders are drawn as seen from outside; a slot "
+                "belongs on a layer of its own.")});
   n = 0;
   for (const auto source : h.unused)
     if (n++ < kListedRemarks)
       out.ignored.push_back(
-          {view.source(source), "A line inside the contour that is no bore."});
+          {view.source(source), tr("A line inside the contour that is no bore.")});
 }
 
 bool has_contour(const std::vector<Stroke>& strokes) {
@@ -50,13 +50,13 @@ void check_halves(const Half& a, const Half& b, const View& view, double join_mm
     auto at = difference(a, b, chain, 2 * join_mm);
     if (!at) at = difference(b, a, chain, 2 * join_mm);
     if (at)
-      refuse("", fmt::format("two halves whose {} differ at {}", what, view.where(*at)),
-             "a full profile that is symmetric to its axis, or one half of it");
+      refuse("", say("two halves whose {} differ at {}", tr(what), view.where(*at)),
+             tr("a full profile that is symmetric to its axis, or one half of it"));
   };
-  same(&Half::outside, "outsides");
+  same(&Half::outside, to_translate("outsides"));
   if (!a.bored() || !b.bored()) return;
-  same(&Half::from_right, "bores");
-  same(&Half::from_left, "bores");
+  same(&Half::from_right, to_translate("bores"));
+  same(&Half::from_left, to_translate("bores"));
 }
 
 }  // namespace
@@ -83,7 +83,8 @@ ProfileRead profile_of(const Drawn& drawn, double join_mm) {
       taken = std::move(h);
     }
   }
-  if (!taken) refuse("", "no contour beside the axis", "the profile of a turned part");
+  if (!taken)
+    refuse("", tr("no contour beside the axis"), tr("the profile of a turned part"));
   auto& sides = out.profile.sides;
   add_sides(sides, *taken, taken->left_face, out.view);
   add_sides(sides, *taken, taken->outside, out.view);

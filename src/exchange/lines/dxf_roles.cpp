@@ -1,7 +1,6 @@
-#include <fmt/format.h>
-
 #include <array>
 
+#include "base/say.hpp"
 #include "dxf_strokes.hpp"
 
 namespace turnwright::exchange::dxf {
@@ -62,18 +61,19 @@ double unit_mm(const File& file, std::vector<Remark>& assumed) {
       kUnits_mm[static_cast<std::size_t>(n)] > 0)
     return kUnits_mm[static_cast<std::size_t>(n)];
   if (n != 0)
-    refuse("$INSUNITS", std::to_string(n), "a unit of length, like 4 for mm, 1 for inch");
+    refuse("$INSUNITS", std::to_string(n),
+           tr("a unit of length, like 4 for mm, 1 for inch"));
   const auto system = file.header.find("$MEASUREMENT");
   if (system == file.header.end()) {
     assumed.push_back(
-        {"$INSUNITS", "The drawing names no unit; it is taken to be in mm."});
+        {"$INSUNITS", tr("The drawing names no unit; it is taken to be in mm.")});
     return 1;
   }
   const bool metric = integer(system->second) != 0;
   assumed.push_back(
-      {"$MEASUREMENT", fmt::format("The drawing has no $INSUNITS; its $MEASUREMENT {} is "
-                                   "taken to mean {}.",
-                                   system->second.value, metric ? "mm" : "inch")});
+      {"$MEASUREMENT", say("The drawing has no $INSUNITS; its $MEASUREMENT {} is "
+                           "taken to mean {}.",
+                           system->second.value, metric ? "mm" : "inch")});
   return metric ? 1 : 25.4;
 }
 

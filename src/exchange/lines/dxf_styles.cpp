@@ -1,10 +1,10 @@
 #include "dxf_styles.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <optional>
 #include <set>
+
+#include "base/say.hpp"
 
 namespace turnwright::exchange::dxf {
 namespace {
@@ -14,9 +14,8 @@ constexpr double kOne = 1e-9;
 // A negative factor is that of dimensions on the sheet alone.
 void require_full_size(double factor, const std::string& place) {
   if (factor > 0 && std::abs(factor - 1) > kOne)
-    refuse(place,
-           fmt::format("dimensions that show {:g} times what is drawn (DIMLFAC)", factor),
-           "a part drawn in full size, 1:1");
+    refuse(place, say("dimensions that show {:g} times what is drawn (DIMLFAC)", factor),
+           tr("a part drawn in full size, 1:1"));
 }
 
 // DIMLFAC among what a dimension changes of its style.
@@ -48,9 +47,9 @@ void check_styles(const File& file, std::vector<Remark>& ignored) {
     const bool adds = style->second.limits || style->second.affixed;
     if (adds && told.insert(name).second)
       ignored.push_back(
-          {name, fmt::format("The dimension style {} adds {} to its dimensions, "
-                             "which is not read.",
-                             name, style->second.limits ? "limits" : "a text")});
+          {name, say("The dimension style {} adds {} to its dimensions, "
+                     "which is not read.",
+                     name, style->second.limits ? tr("limits") : tr("a text"))});
   }
   const auto header = file.header.find("$DIMLFAC");
   if (dimensioned && header != file.header.end())

@@ -5,6 +5,7 @@
 #include "dxf_text.hpp"
 #include "exchange/contour/thread_undercut.hpp"
 #include "exchange/text/notation_words.hpp"
+#include "turnwright/base/language.hpp"
 #include "turnwright/exchange/dxf.hpp"
 
 namespace turnwright::exchange {
@@ -19,7 +20,7 @@ void append(std::vector<Remark>& to, std::vector<Remark>& from) {
 Outline read_dxf(std::string_view text, const DxfOptions& options) {
   if (!(options.join_mm > 0 && options.join_mm <= 1))
     dxf::refuse("join_mm", fmt::format("{}", options.join_mm),
-                "a number > 0 and <= 1 mm");
+                tr("a number > 0 and <= 1 mm"));
   std::string converted;
   if (notated::utf8_length(text) < text.size()) {
     converted = dxf::in_utf8(text);

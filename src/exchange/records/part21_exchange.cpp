@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/say.hpp"
 #include "part21_reader.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/exchange/part21.hpp"
@@ -35,8 +36,8 @@ std::optional<Instance> Exchange::find(Id id) const {
 
 Instance Exchange::at(Id id) const {
   if (const auto found = find(id)) return *found;
-  throw InputError("STEP file", {{name_of(id), "no such instance",
-                                  "a number that the file holds", "reference"}});
+  throw InputError("STEP file", {{name_of(id), tr("no such instance"),
+                                  tr("a number that the file holds"), "reference"}});
 }
 
 std::vector<Instance> Exchange::all(std::string_view name) const {
@@ -70,7 +71,7 @@ std::optional<Record> Instance::find(std::string_view name) const {
 
 Record Instance::as(std::string_view name) const {
   if (const auto found = find(name)) return *found;
-  record(0).refuse(this->name(), "an instance of " + std::string(name));
+  record(0).refuse(this->name(), say("an instance of {}", name));
 }
 
 std::string Instance::name() const {
@@ -88,8 +89,7 @@ std::vector<Instance> Instance::users() const {
 }
 
 Parameter Record::operator[](std::size_t n) const {
-  if (n >= size())
-    refuse(std::to_string(size()) + " parameters", std::to_string(n + 1) + " or more");
+  if (n >= size()) refuse(say("{} parameters", size()), say("{} or more", n + 1));
   return Parameter(*this, n + 1, exchange_->values_[entry_->first + n]);
 }
 
@@ -102,66 +102,69 @@ void Record::refuse(std::string got, std::string expected) const {
 }
 
 const Value& Parameter::required(ValueKind kind, std::string_view expected) const {
-  if (!is(kind)) refuse(std::string(expected));
+  if (!is(kind)) refuse(tr(expected));
   return *value_;
 }
 
 std::int64_t Parameter::integer() const {
-  return required(ValueKind::integer, "an integer").integer;
+  return required(ValueKind::integer, to_translate("an integer")).integer;
 }
 
 double Parameter::real() const {
   if (is(ValueKind::integer)) return static_cast<double>(value_->integer);
-  return required(ValueKind::real, "a number").real;
+  return required(ValueKind::real, to_translate("a number")).real;
 }
 
 std::string Parameter::text() const {
-  return part21_text(text_of(required(ValueKind::text, "a string")));
+  return part21_text(text_of(required(ValueKind::text, to_translate("a string"))));
 }
 
 std::optional<std::string> Parameter::short_text() const {
   constexpr std::size_t kLongest = 1000;
   if (absent()) return "";
-  const auto encoded = text_of(required(ValueKind::text, "a string"));
+  const auto encoded = text_of(required(ValueKind::text, to_translate("a string")));
   if (encoded.size() > kLongest) return std::nullopt;
   return part21_text(encoded);
 }
 
 std::string_view Parameter::word() const {
-  return text_of(required(ValueKind::enumeration, "a word between dots"));
+  return text_of(required(ValueKind::enumeration, to_translate("a word between dots")));
 }
 
 bool Parameter::boolean() const {
   const auto w = is(ValueKind::enumeration) ? word() : std::string_view();
-  if (w != "T" && w != "F") refuse(".T. or .F.");
+  if (w != "T" && w != "F") refuse(tr(".T. or .F."));
   return w == "T";
 }
 
 std::string_view Parameter::binary() const {
-  return text_of(required(ValueKind::binary, "a binary value"));
+  return text_of(required(ValueKind::binary, to_translate("a binary value")));
 }
 
 Instance Parameter::instance() const {
-  const auto& v = required(ValueKind::reference, "a reference to an instance");
+  const auto& v =
+      required(ValueKind::reference, to_translate("a reference to an instance"));
   return Instance(*record_.exchange_, v.index);
 }
 
 Id Parameter::id() const { return instance().id(); }
 
-std::size_t Parameter::size() const { return required(ValueKind::list, "a list").size; }
+std::size_t Parameter::size() const {
+  return required(ValueKind::list, to_translate("a list")).size;
+}
 
 Parameter Parameter::operator[](std::size_t n) const {
-  if (n >= size()) refuse("a list of at least " + std::to_string(n + 1));
+  if (n >= size()) refuse(say("a list of at least {}", n + 1));
   return Parameter(record_, number_, record_.exchange_->values_[value_->index + n]);
 }
 
 std::string_view Parameter::type() const {
-  const auto& v = required(ValueKind::typed, "a typed value");
+  const auto& v = required(ValueKind::typed, to_translate("a typed value"));
   return text_of(record_.exchange_->values_[v.index]);
 }
 
 Parameter Parameter::inner() const {
-  const auto& v = required(ValueKind::typed, "a typed value");
+  const auto& v = required(ValueKind::typed, to_translate("a typed value"));
   return Parameter(record_, number_, record_.exchange_->values_[v.index + 1]);
 }
 
@@ -184,17 +187,17 @@ std::string Parameter::shown() const {
     case ValueKind::integer:
       return std::to_string(value_->integer);
     case ValueKind::real:
-      return "a number";
+      return tr("a number");
     case ValueKind::text:
-      return "a string";
+      return tr("a string");
     case ValueKind::enumeration:
       return fmt::format(".{}.", word());
     case ValueKind::binary:
-      return "a binary value";
+      return tr("a binary value");
     case ValueKind::reference:
       return name_of(id()) + " " + instance().name();
     case ValueKind::list:
-      return "a list of " + std::to_string(size());
+      return say("a list of {}", size());
     case ValueKind::typed:
       return std::string(type()) + "(..)";
   }

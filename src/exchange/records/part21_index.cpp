@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "base/say.hpp"
 #include "part21_reader.hpp"
 #include "turnwright/base/errors.hpp"
 
@@ -23,8 +24,8 @@ void Part21Reader::index_ids() {
   for (std::size_t i = 1; i < all.size(); ++i) {
     const auto& entry = all[x_.by_id_[i]];
     if (entry.id == all[x_.by_id_[i - 1]].id)
-      fault(entry.at, name_of(entry.id) + " a second time",
-            "a number for every instance of its own");
+      fault(entry.at, say("{} a second time", name_of(entry.id)),
+            tr("a number for every instance of its own"));
   }
 }
 
@@ -53,8 +54,8 @@ void Part21Reader::resolve() {
       return;
     }
     const auto place = x_.instance(i).record(0).place();
-    fault(x_.instances_[i].at, place + " referring to " + name_of(v.index),
-          "a reference to an instance that the file holds");
+    fault(x_.instances_[i].at, say("{} referring to {}", place, name_of(v.index)),
+          tr("a reference to an instance that the file holds"));
   });
 }
 
@@ -100,8 +101,7 @@ void Part21Reader::throw_faults() {
                         std::move(f.expected), "syntax"});
   }
   if (more_faults_)
-    problems.push_back(
-        {"", std::to_string(more_faults_) + " more problems", "none", "syntax"});
+    problems.push_back({"", say("{} more problems", more_faults_), tr("none"), "syntax"});
   throw InputError("STEP file", std::move(problems));
 }
 

@@ -2,6 +2,9 @@
 
 #include <charconv>
 
+#include "base/say.hpp"
+#include "turnwright/base/language.hpp"
+
 namespace turnwright::exchange {
 namespace {
 
@@ -30,7 +33,7 @@ void Part21Lexer::space() {
       at_ += 2;
     } else if (rest.starts_with("/*")) {
       const auto end = text_.find("*/", at_ + 2);
-      if (end == std::string_view::npos) refuse("*/ at the end of this comment");
+      if (end == std::string_view::npos) refuse(tr("*/ at the end of this comment"));
       at_ = end + 1;
     } else {
       return;
@@ -50,7 +53,7 @@ bool Part21Lexer::take(char c) {
 }
 
 void Part21Lexer::expect(char c, std::string_view where) {
-  if (!take(c)) refuse(std::string(1, c) + " " + std::string(where));
+  if (!take(c)) refuse(fmt::format("{} {}", c, translated(where)));
 }
 
 std::string_view Part21Lexer::keyword() {
@@ -70,7 +73,7 @@ Id Part21Lexer::id() {
   Id id = 0;
   const auto [end, error] =
       std::from_chars(text_.data() + at_, text_.data() + text_.size(), id);
-  if (error != std::errc()) refuse("the number of an instance behind #");
+  if (error != std::errc()) refuse(tr("the number of an instance behind #"));
   at_ = static_cast<std::size_t>(end - text_.data());
   return id;
 }
@@ -78,13 +81,17 @@ Id Part21Lexer::id() {
 Value Part21Lexer::scalar() {
   const char c = peek();
   if (is_digit(c) || c == '+' || c == '-') return number();
-  if (c == '\'') return ++at_, text_value(ValueKind::text, quoted('\'', "string"));
-  if (c == '"') return ++at_, text_value(ValueKind::binary, quoted('"', "binary value"));
-  if (c != '.') refuse("a value");
+  if (c == '\'')
+    return ++at_,
+           text_value(ValueKind::text, quoted('\'', to_translate("a string that ends")));
+  if (c == '"')
+    return ++at_, text_value(ValueKind::binary,
+                             quoted('"', to_translate("a binary value that ends")));
+  if (c != '.') refuse(tr("a value"));
   if (at_ + 1 < text_.size() && is_digit(text_[at_ + 1])) return number();
   ++at_;
   const auto word = keyword();
-  if (word.empty() || ended() || text_[at_] != '.') refuse("an enumeration, .WORD.");
+  if (word.empty() || ended() || text_[at_] != '.') refuse(tr("an enumeration, .WORD."));
   return ++at_, text_value(ValueKind::enumeration, word);
 }
 
@@ -107,7 +114,7 @@ Value Part21Lexer::number() {
   if (tiny) v.real = 0, error = {};
   if (error == std::errc() && end == last) return v;
   at_ = begin;
-  refuse(whole ? "an integer of 64 bits" : "a finite number");
+  refuse(whole ? tr("an integer of 64 bits") : tr("a finite number"));
 }
 
 std::string_view Part21Lexer::quoted(char mark, std::string_view what) {
@@ -116,7 +123,7 @@ std::string_view Part21Lexer::quoted(char mark, std::string_view what) {
     const auto end = text_.find(mark, at_);
     if (end == std::string_view::npos) {
       at_ = begin - 1;
-      refuse("a " + std::string(what) + " that ends");
+      refuse(tr(what));
     }
     at_ = end + 1;
     if (ended() || text_[at_] != mark) return text_.substr(begin, end - begin);
@@ -144,10 +151,10 @@ void Part21Lexer::skip_record() {
 }
 
 std::string Part21Lexer::here() const {
-  if (ended()) return "the end of the file";
+  if (ended()) return tr("the end of the file");
   auto rest = text_.substr(at_, 20);
   rest = rest.substr(0, rest.find_first_of("\r\n"));
-  return rest.empty() ? "the end of a line" : std::string(rest);
+  return rest.empty() ? tr("the end of a line") : std::string(rest);
 }
 
 void Part21Lexer::refuse(std::string expected) const {

@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "base/say.hpp"
 #include "turnwright/base/errors.hpp"
 
 namespace turnwright::exchange {
@@ -13,7 +14,8 @@ constexpr std::size_t kDeepest = 64;  // lists in lists; schemas have three or f
 
 void Part21Reader::read() {
   if (x_.text_.size() >= std::numeric_limits<std::uint32_t>::max())
-    throw InputError("STEP file", {{"", "more than 4 GB", "a smaller file", "range"}});
+    throw InputError("STEP file",
+                     {{"", tr("more than 4 GB"), tr("a smaller file"), "range"}});
   try {
     sections();
   } catch (const SyntaxError& e) {
@@ -29,17 +31,19 @@ void Part21Reader::read() {
 void Part21Reader::sections() {
   if (x_.text_.starts_with("\xef\xbb\xbf")) lex_.skip(3);  // a byte order mark
   const auto begin = lex_;
-  if (lex_.keyword() != "ISO-10303-21") begin.refuse("ISO-10303-21; at the beginning");
-  lex_.expect(';', "behind ISO-10303-21");
+  if (lex_.keyword() != "ISO-10303-21")
+    begin.refuse(tr("ISO-10303-21; at the beginning"));
+  lex_.expect(';', to_translate("behind ISO-10303-21"));
   for (bool data = false;;) {
     const auto name = lex_.keyword();
     if (name == "END-ISO-10303-21" && data) return;
     if (name == "DATA" && lex_.take('(')) parameters();
     if (name.empty() || name.starts_with("END"))
-      lex_.refuse(data ? "END-ISO-10303-21; or a section" : "a section DATA");
-    lex_.expect(';', "behind " + std::string(name));
+      lex_.refuse(data ? tr("END-ISO-10303-21; or a section") : tr("a section DATA"));
+    if (!lex_.take(';')) lex_.refuse(say("; behind {}", name));
     if (name == "HEADER") {
-      records([this] { record(), lex_.expect(';', "behind a record"); }, name);
+      records([this] { record(), lex_.expect(';', to_translate("behind a record")); },
+              name);
       x_.header_records_ = x_.records_.size();
     } else if (name == "DATA") {
       data = true;
@@ -66,26 +70,26 @@ bool Part21Reader::ended_section(std::string_view section) {
   if (lex_.peek() == '#') return false;
   const auto before = lex_;
   const auto word = lex_.keyword();
-  if (word == "ENDSEC") return lex_.expect(';', "behind ENDSEC"), true;
+  if (word == "ENDSEC") return lex_.expect(';', to_translate("behind ENDSEC")), true;
   lex_ = before;
   if (lex_.ended() || word == "DATA" || word == "HEADER" || word == "END-ISO-10303-21")
-    lex_.refuse("ENDSEC; at the end of the section " + std::string(section));
+    lex_.refuse(say("ENDSEC; at the end of the section {}", section));
   return false;
 }
 
 void Part21Reader::instance() {
   Exchange::InstanceEntry entry{.at = static_cast<std::uint32_t>(lex_.at())};
   entry.first = static_cast<std::uint32_t>(x_.records_.size());
-  lex_.expect('#', "and a number, the name of an instance");
+  lex_.expect('#', to_translate("and a number, the name of an instance"));
   entry.id = lex_.id();
-  lex_.expect('=', "behind the name of an instance");
+  lex_.expect('=', to_translate("behind the name of an instance"));
   if (lex_.take('(')) {
     do record();
     while (!lex_.take(')'));
   } else {
     record();
   }
-  lex_.expect(';', "behind an instance");
+  lex_.expect(';', to_translate("behind an instance"));
   const auto end = static_cast<std::uint32_t>(x_.records_.size());
   entry.size = end - entry.first;
   const auto index = static_cast<std::uint32_t>(x_.instances_.size());
@@ -98,8 +102,8 @@ void Part21Reader::instance() {
 
 void Part21Reader::record() {
   const auto name = lex_.keyword();
-  if (name.empty()) lex_.refuse("the name of an entity");
-  lex_.expect('(', "behind an entity's name");
+  if (name.empty()) lex_.refuse(tr("the name of an entity"));
+  lex_.expect('(', to_translate("behind an entity's name"));
   const auto [first, size] = parameters();
   x_.records_.push_back({.name = name, .first = first, .size = size});
 }
@@ -115,7 +119,7 @@ std::pair<std::uint32_t, std::uint32_t> Part21Reader::parameters() {
     const bool empty = scratch_.size() == frames_.back().begin;
     if (!empty || lex_.peek() != ')') scratch_.push_back(value());
     while (!lex_.take(',')) {
-      lex_.expect(')', "or , behind a parameter");
+      lex_.expect(')', to_translate("or , behind a parameter"));
       const Value list = closed();
       if (frames_.empty()) return {static_cast<std::uint32_t>(list.index), list.size};
       scratch_.push_back(list);
@@ -127,8 +131,8 @@ bool Part21Reader::opens() {
   const bool list = lex_.take('(');
   const auto type = list ? std::string_view() : lex_.keyword();
   if (!list && type.empty()) return false;
-  if (!list) lex_.expect('(', "behind a type's name");
-  if (frames_.size() > kDeepest) lex_.refuse("lists in lists of at most 64 levels");
+  if (!list) lex_.expect('(', to_translate("behind a type's name"));
+  if (frames_.size() > kDeepest) lex_.refuse(tr("lists in lists of at most 64 levels"));
   frames_.push_back({.begin = scratch_.size(), .typed = !list});
   if (!list) {
     Value name(ValueKind::text, type.size());
@@ -142,7 +146,7 @@ Value Part21Reader::closed() {
   const auto frame = frames_.back();
   frames_.pop_back();
   const auto size = scratch_.size() - frame.begin;
-  if (frame.typed && size != 2) lex_.refuse("one value of a type");
+  if (frame.typed && size != 2) lex_.refuse(tr("one value of a type"));
   Value list(frame.typed ? ValueKind::typed : ValueKind::list, size);
   list.index = x_.values_.size();
   const auto begin = scratch_.begin() + static_cast<std::ptrdiff_t>(frame.begin);

@@ -4,6 +4,8 @@
 #include <string_view>
 #include <utility>
 
+#include "turnwright/base/language.hpp"
+
 namespace turnwright::exchange {
 namespace {
 
@@ -30,12 +32,12 @@ double si_prefix(const Parameter& prefix) {
        {"ATTO", 1e-18}}};
   for (const auto& [word, factor] : kPrefixes)
     if (prefix.word() == word) return factor;
-  prefix.refuse("a prefix of the SI such as .MILLI.");
+  prefix.refuse(tr("a prefix of the SI such as .MILLI."));
 }
 
 // SI_UNIT has prefix and name last, whether it stands alone or is part of a complex one.
 std::optional<Unit> si_unit(const Record& si) {
-  if (si.size() < 2) si.refuse("fewer than 2 parameters", "a prefix and a name");
+  if (si.size() < 2) si.refuse(tr("fewer than 2 parameters"), tr("a prefix and a name"));
   const auto name = si[si.size() - 1].word();
   const double prefix = si_prefix(si[si.size() - 2]);
   constexpr double kMm = 1000;
@@ -73,13 +75,13 @@ std::optional<Unit> step_unit(const Instance& unit) {
     if (!conversion) return std::nullopt;
     const auto factor = (*conversion)[conversion->size() - 1];
     const auto measured = parts(factor.instance());
-    if (!measured) factor.refuse("a measure with unit");
+    if (!measured) factor.refuse(tr("a measure with unit"));
     size *= measured->value.measure();
-    if (!(size > 0)) measured->value.refuse("a factor > 0");
+    if (!(size > 0)) measured->value.refuse(tr("a factor > 0"));
     at = measured->unit.instance();
   }
-  unit.record(0).refuse("a unit that is defined by itself",
-                        "a unit of the SI in the end");
+  unit.record(0).refuse(tr("a unit that is defined by itself"),
+                        tr("a unit of the SI in the end"));
 }
 
 std::optional<Measure> step_measure(const Instance& measure) {

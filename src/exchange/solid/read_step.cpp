@@ -1,9 +1,8 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "base/say.hpp"
 #include "exchange/contour/thread_undercut.hpp"
 #include "exchange/demands/step_pmi.hpp"
 #include "step_milled.hpp"
@@ -37,9 +36,9 @@ void offer_threads(Outline& outline) {
                      [&e](double d) { return std::abs(e.left_mm - d) < kDiameter_mm; });
     if (may_be_thread(outline.outer, i) && size != kThreads_mm.end())
       outline.assumed.push_back(
-          {e.id, fmt::format("{} is a cylinder with the diameter of M{:g}; if it is a "
-                             "thread, say so.",
-                             e.id, *size)});
+          {e.id, say("{} is a cylinder with the diameter of M{:g}; if it is a "
+                     "thread, say so.",
+                     e.id, *size)});
   }
 }
 

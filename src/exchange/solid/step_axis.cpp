@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "turnwright/base/errors.hpp"
+#include "turnwright/base/language.hpp"
 
 namespace turnwright::exchange {
 namespace {
@@ -51,8 +52,8 @@ Axis turning_axis(const std::vector<Face>& faces) {
       return coaxial(f.surface, c.axis);
     });
     if (same == all.end() && all.size() == kMostAxes)
-      throw InputError("STEP file", {{"", "faces about more than 500 axes",
-                                      "a turned part", "not-turned"}});
+      throw InputError("STEP file", {{"", tr("faces about more than 500 axes"),
+                                      tr("a turned part"), "not-turned"}});
     auto& c = same == all.end() ? all.emplace_back() : *same;
     const Axis own{f.surface.origin, f.surface.axis};
     const double area = area_mm2(f, own);
@@ -60,8 +61,9 @@ Axis turning_axis(const std::vector<Face>& faces) {
     if (area > c.largest_mm2) c.largest_mm2 = area, c.axis = own;
   }
   if (all.empty())
-    throw InputError("STEP file", {{"", "a body without a cylinder, a cone or a torus",
-                                    "a turned part", "not-turned"}});
+    throw InputError("STEP file",
+                     {{"", tr("a body without a cylinder, a cone or a torus"),
+                       tr("a turned part"), "not-turned"}});
   auto axis = std::max_element(all.begin(), all.end(),
                                [](const Candidate& a, const Candidate& b) {
                                  return a.area_mm2 < b.area_mm2;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "base/say.hpp"
 #include "exchange/records/given_name.hpp"
 #include "exchange/records/step_unit.hpp"
 #include "turnwright/base/errors.hpp"
@@ -112,7 +113,8 @@ std::string quoted_names(const std::vector<Instance>& all) {
 }
 
 Instance chosen(const std::vector<Instance>& all, const std::string& body) {
-  if (all.empty()) refuse_file("no solid and no shell", "the solid of a turned part");
+  if (all.empty())
+    refuse_file(tr("no solid and no shell"), tr("the solid of a turned part"));
   if (body.empty() && all.size() == 1) return all[0];
   std::vector<Instance> same;
   for (std::size_t i = 0; i < all.size() && !body.empty(); ++i)
@@ -121,16 +123,16 @@ Instance chosen(const std::vector<Instance>& all, const std::string& body) {
   for (std::size_t i = 0; i < all.size() && same.empty(); ++i)
     if (std::to_string(i + 1) == body) return all[i];
   if (same.size() == 1) return same[0];
-  refuse_file(body.empty() ? std::to_string(all.size()) + " solids"
-                           : std::to_string(same.size()) + " solids \"" + body + "\"",
-              "one of these, by name or number: " + quoted_names(all));
+  refuse_file(body.empty() ? say("{} solids", all.size())
+                           : say("{} solids \"{}\"", same.size(), body),
+              say("one of these, by name or number: {}", quoted_names(all)));
 }
 
 void read_units(const Instance& item, const Exchange& file, Body& body) {
   const auto where = placed(item);
   const auto contexts = file.all("GLOBAL_UNIT_ASSIGNED_CONTEXT");
   if (!where && contexts.empty()) {
-    body.assumed.push_back({"", "The file names no units; lengths are taken as mm."});
+    body.assumed.push_back({"", tr("The file names no units; lengths are taken as mm.")});
     return;
   }
   const auto record =
@@ -176,7 +178,7 @@ void add_faces(const Instance& item, Body& body) {
   else if (hollow && hollow->size() >= 2)
     add_shell((*hollow)[hollow->size() - 2].instance(), true, body);
   else
-    item.record(0).refuse("facets", "a solid with exact faces");
+    item.record(0).refuse(tr("facets"), tr("a solid with exact faces"));
   if (!hollow) return;
   const auto voids = last(*hollow);
   for (std::size_t i = 0; i < voids.size(); ++i)

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <set>
 
+#include "base/say.hpp"
 #include "turnwright/base/errors.hpp"
 
 namespace turnwright::exchange {
@@ -139,22 +140,22 @@ class Graph {
   [[noreturn]] void refuse_open(std::size_t open) const {
     const auto& s = sides_[open];
     const auto& end = open_behind(open) ? s.to : s.from;
-    refuse(id(open), "a face that no other about the axis meets at " + place(end),
-           "a half profile that closes");
+    refuse(id(open), say("a face that no other about the axis meets at {}", place(end)),
+           tr("a half profile that closes"));
   }
   [[noreturn]] void refuse_branch(std::size_t node) const {
     const auto first = *out_[node].begin(), second = *std::next(out_[node].begin());
     refuse(id(first),
-           "a face that begins with " + name_of(id(second)) + " at " +
-               place(sides_[first].from),
-           "one way round the half profile");
+           say("a face that begins with {} at {}", name_of(id(second)),
+               place(sides_[first].from)),
+           tr("one way round the half profile"));
   }
   [[noreturn]] void refuse_hollow() const {
     for (const auto& sides : out_)
       if (!sides.empty())
-        refuse(id(*sides.begin()), "a hollow inside the body, or a second body",
-               "one half profile from end to end");
-    refuse(0, "nothing", "a half profile");
+        refuse(id(*sides.begin()), tr("a hollow inside the body, or a second body"),
+               tr("one half profile from end to end"));
+    refuse(0, tr("nothing"), tr("a half profile"));
   }
 
   const std::vector<Face>& faces_;
@@ -207,27 +208,26 @@ void check_turned(const std::vector<Face>& faces, const std::vector<TurnedSide>&
   for (const auto& s : sides)
     if (s.outside() && (!largest || s.largest_mm() > largest->largest_mm())) largest = &s;
   if (!largest)
-    refuse(faces[0].id, "a body with no face about its axis on the outside",
-           "a turned part");
+    refuse(faces[0].id, tr("a body with no face about its axis on the outside"),
+           tr("a turned part"));
   const double R = largest->largest_mm();
   const auto id = faces[largest->faces[0]].id;
   for (const auto& face : faces)
     for (const auto& b : face.boundary)
       if (!(axis.r_mm(b.from) < R + kSame_mm))
         refuse(face.id,
-               fmt::format(
-                   "a corner {:.6g} mm from the axis of {}, whose diameter is {:.6g} mm",
+               say("a corner {:.6g} mm from the axis of {}, whose diameter is {:.6g} mm",
                    axis.r_mm(b.from), name_of(id), 2 * R),
-               "a turned part, all of it within its largest diameter");
+               tr("a turned part, all of it within its largest diameter"));
   double round = 0;
   for (const auto& s : sides)
     if (s.outside() && s.largest_mm() > R - kSame_mm)
       round = std::max(round, s.round_rad);
   if (!(round >= kRound_rad))
     refuse(id,
-           fmt::format("{:.0f} % of a circle of {:.6g} mm diameter",
-                       50 * round / std::numbers::pi, 2 * R),
-           "a turned part, a third or more of its largest circle there");
+           say("{:.0f} % of a circle of {:.6g} mm diameter",
+               50 * round / std::numbers::pi, 2 * R),
+           tr("a turned part, a third or more of its largest circle there"));
 }
 
 Contour contour_of(const std::vector<Face>& faces, std::vector<TurnedSide> sides) {
@@ -255,7 +255,7 @@ Contour step_contour(const std::vector<Face>& faces, const Axis& axis) {
   for (std::size_t i = 0; i < faces.size(); ++i) {
     if (auto side = side_of(faces[i], i, axis)) sides.push_back(std::move(*side));
     if (sides.size() > kMostSides)
-      refuse(faces[i].id, "more than 5000 faces about the axis", "a turned part");
+      refuse(faces[i].id, tr("more than 5000 faces about the axis"), tr("a turned part"));
   }
   sides = merged(std::move(sides));
   check_turned(faces, sides, axis);

@@ -6,6 +6,8 @@
 #include <optional>
 #include <string_view>
 
+#include "turnwright/base/language.hpp"
+
 namespace turnwright::exchange {
 namespace {
 
@@ -16,7 +18,7 @@ constexpr int kMostWrappers =
 constexpr double kInPlane = 1e-6;  // of a length: a curve lies in a plane with the axis
 
 Vector3d coordinates(const Parameter& list) {
-  if (list.size() != 3) list.refuse("a list of three");
+  if (list.size() != 3) list.refuse(tr("a list of three"));
   return {list[0].measure(), list[1].measure(), list[2].measure()};
 }
 
@@ -51,7 +53,7 @@ Vector3d Geometry::direction(const Instance& direction) const {
   const auto ratios = from_end(direction.as("DIRECTION"), 0);
   const Vector3d v = coordinates(ratios);
   const double length = v.stableNorm();
-  if (!(length > 0)) ratios.refuse("a direction that is not zero");
+  if (!(length > 0)) ratios.refuse(tr("a direction that is not zero"));
   return v / length;
 }
 
@@ -66,7 +68,7 @@ Geometry::Placement Geometry::placement(const Instance& axis) const {
 
 double Geometry::positive(const Parameter& p) const {
   const double x = length(p);
-  if (!(x > 0)) p.refuse("a radius > 0");
+  if (!(x > 0)) p.refuse(tr("a radius > 0"));
   return x;
 }
 
@@ -94,7 +96,7 @@ Surface Geometry::surface(Instance item) const {
     s.radius_mm = length((*r)[2]);
     s.slope_rad = (*r)[3].measure() * rad_;
     if (!(std::abs(s.slope_rad) < std::numbers::pi / 2))
-      (*r)[3].refuse("less than 90 deg");
+      (*r)[3].refuse(tr("less than 90 deg"));
     return s;
   }
   for (const auto name : {"TOROIDAL_SURFACE", "DEGENERATE_TOROIDAL_SURFACE"})

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <unordered_map>
 
+#include "base/say.hpp"
 #include "exchange/contour/elements.hpp"
 #include "step_cross_hole.hpp"
 
@@ -73,8 +74,8 @@ bool put(Pocket f, double left_mm, Outline& outline) {
   if (f.square_ends)
     outline.assumed.push_back(
         {m.sources.front(),
-         m.id + (hole ? " has a flat bottom; a drill leaves a point."
-                      : " has a square end; a milling cutter leaves a round one.")});
+         hole ? say("{} has a flat bottom; a drill leaves a point.", m.id)
+              : say("{} has a square end; a milling cutter leaves a round one.", m.id)});
   outline.milled.push_back(std::move(m));
   return true;
 }
@@ -83,15 +84,15 @@ std::string lies(const Face& face, const Axis& axis) {
   const auto& s = face.surface;
   const bool plane = s.kind == Kind::plane;
   if (axis.parallel(s.axis)) {
-    if (plane) return "across the axis";
+    if (plane) return tr("across the axis");
     const double off = axis.r_mm(s.origin);
-    return off < kSame_mm ? "about the axis"
-                          : fmt::format("along the axis, {:.6g} mm from it", off);
+    return off < kSame_mm ? tr("about the axis")
+                          : say("along the axis, {:.6g} mm from it", off);
   }
-  if (axis.across(s.axis)) return plane ? "along the axis" : "across the axis";
+  if (axis.across(s.axis)) return plane ? tr("along the axis") : tr("across the axis");
   const double deg = std::acos(std::min(1.0, std::abs(axis.direction.dot(s.axis)))) *
                      180 / std::numbers::pi;
-  return fmt::format("at {:.4g} deg to the axis", plane ? 90 - deg : deg);
+  return say("at {:.4g} deg to the axis", plane ? 90 - deg : deg);
 }
 
 void ignore(const std::vector<const Face*>& group, const Axis& axis, Outline& outline,
@@ -100,8 +101,8 @@ void ignore(const std::vector<const Face*>& group, const Axis& axis, Outline& ou
     if (outline.ignored.size() >= kMostRemarks)
       ++more;
     else
-      outline.ignored.push_back(
-          {name_of(f->id), described(*f, axis) + " is not part of what is turned."});
+      outline.ignored.push_back({name_of(f->id), say("{} is not part of what is turned.",
+                                                     described(*f, axis))});
   }
 }
 
@@ -111,22 +112,22 @@ std::string described(const Face& face, const Axis& axis) {
   const auto& s = face.surface;
   switch (s.kind) {
     case Kind::plane:
-      return "A plane " + lies(face, axis);
+      return say("A plane {}", lies(face, axis));
     case Kind::cylinder:
-      return fmt::format("A {} of {:.6g} mm diameter {}",
-                         face.outward < 0 ? "hole or hollow" : "cylinder",
-                         2 * s.radius_mm, lies(face, axis));
+      return face.outward < 0 ? say("A hole or hollow of {:.6g} mm diameter {}",
+                                    2 * s.radius_mm, lies(face, axis))
+                              : say("A cylinder of {:.6g} mm diameter {}",
+                                    2 * s.radius_mm, lies(face, axis));
     case Kind::cone:
-      return "A cone " + lies(face, axis);
+      return say("A cone {}", lies(face, axis));
     case Kind::torus:
-      return fmt::format("A rounding of {:.6g} mm radius {}", s.tube_mm,
-                         lies(face, axis));
+      return say("A rounding of {:.6g} mm radius {}", s.tube_mm, lies(face, axis));
     case Kind::sphere:
-      return fmt::format("A sphere of {:.6g} mm radius", s.radius_mm);
+      return say("A sphere of {:.6g} mm radius", s.radius_mm);
     case Kind::other:
       break;
   }
-  return "A surface of the kind " + s.name;
+  return say("A surface of the kind {}", s.name);
 }
 
 void add_milled(const std::vector<Face>& faces, const Contour& contour, const Axis& axis,
@@ -143,8 +144,7 @@ void add_milled(const std::vector<Face>& faces, const Contour& contour, const Ax
     outline.milled.resize(milled), outline.assumed.resize(assumed);
     ignore(group, axis, outline, more);
   }
-  if (more)
-    outline.ignored.push_back({"", fmt::format("{} more faces are not turned.", more)});
+  if (more) outline.ignored.push_back({"", say("{} more faces are not turned.", more)});
 }
 
 }  // namespace turnwright::exchange

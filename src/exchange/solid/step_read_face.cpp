@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/say.hpp"
 #include "step_face.hpp"
 #include "step_geometry.hpp"
 #include "turnwright/base/errors.hpp"
@@ -23,7 +24,7 @@ class FaceReader {
     const auto name = use.face.is("FACE_SURFACE") ? "FACE_SURFACE" : "ADVANCED_FACE";
     const auto record = use.face.as(name);
     const auto n = record.size();
-    if (n < 3) record.refuse(std::to_string(n) + " parameters", "bounds, surface, sense");
+    if (n < 3) record.refuse(say("{} parameters", n), tr("bounds, surface, sense"));
     Face face;
     face.id = use.face.id();
     face.surface = geometry_.surface(record[n - 2].instance());
@@ -48,7 +49,7 @@ class FaceReader {
     const bool forward = record[2].boolean();
     const auto edges = loop.as("EDGE_LOOP")[1];
     for (std::size_t i = 0; i < edges.size(); ++i) {
-      if (spent()) edges.refuse("edges that each bound two faces");
+      if (spent()) edges.refuse(tr("edges that each bound two faces"));
       --left_;
       face.boundary.push_back(edge(edges[i].instance(), forward));
     }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <unordered_set>
 
+#include "base/say.hpp"
 #include "notation_element.hpp"
 #include "notation_features.hpp"
 #include "notation_units.hpp"
@@ -25,15 +26,15 @@ class Notation {
 
   Outline read() {
     if (const auto n = utf8_length(text_); n < text_.size()) {
-      mistakes_.add(text_.substr(n, 1), "a text in UTF-8", "a byte that is none");
+      mistakes_.add(text_.substr(n, 1), tr("a text in UTF-8"), tr("a byte that is none"));
       mistakes_.throw_if_any();
     }
     const auto all = statements(text_);
     mistakes_.units = units_of(all, mistakes_);
     for (const Word s : all) read_statement(s);
     if (out_.outer.empty() && out_.inner.empty() && mistakes_.none())
-      mistakes_.add(text_.substr(0, 0), "elements like d50 h7 x 40; d30 k6 x 32",
-                    "no element");
+      mistakes_.add(text_.substr(0, 0), tr("elements like d50 h7 x 40; d30 k6 x 32"),
+                    tr("no element"));
     place_corners();
     check_names();
     mistakes_.throw_if_any();
@@ -44,9 +45,9 @@ class Notation {
       to_millimetres(mistakes_.units, out_);
       out_.assumed.push_back(
           {"",
-           "Sizes are read in inches and roughness in microinches; the part is in "
-           "millimetres. Diameters of threads and sizes of standards stay as their "
-           "designations say."});
+           tr("Sizes are read in inches and roughness in microinches; the part is in "
+              "millimetres. Diameters of threads and sizes of standards stay as their "
+              "designations say.")});
     }
     return std::move(out_);
   }
@@ -68,16 +69,16 @@ class Notation {
     if (read_feature(w, features_, mistakes_)) return;
     mistakes_.add(
         w[0],
-        "an element like d50 h7 x 40, M24x1.5 x 25, groove d26 x 3 or bore d20 "
-        "H7 x 60, a corner like 1x45, a face, a tolerance, a keyway, a centre hole "
-        "like centre right A4/8.5, or a title like name: Pin");
+        tr("an element like d50 h7 x 40, M24x1.5 x 25, groove d26 x 3 or bore d20 "
+           "H7 x 60, a corner like 1x45, a face, a tolerance, a keyway, a centre hole "
+           "like centre right A4/8.5, or a title like name: Pin"));
   }
 
   // "centre right A4/8.5".
   void read_centre(const std::vector<Word>& w) {
     const bool left = w.size() > 1 && same(w[1], "left");
     if (w.size() != 3 || (!left && !same(w[1], "right")))
-      return mistakes_.add(w[0], "a centre hole like centre right A4/8.5");
+      return mistakes_.add(w[0], tr("a centre hole like centre right A4/8.5"));
     std::string designation(w[2]);
     std::ranges::transform(designation, designation.begin(), [](unsigned char c) {
       return static_cast<char>(std::toupper(c));
@@ -101,11 +102,11 @@ class Notation {
         same(head, "left") || same(head, "right") || head.find('|') != Word::npos;
     if (!edge)
       return mistakes_.add(
-          head,
-          "name, material, general, drawing, revision, customer, unit, or "
-          "an edge like left or d1|d2 before the colon");
+          head, tr("name, material, general, drawing, revision, customer, unit, or "
+                   "an edge like left or d1|d2 before the colon"));
     features_.named.push_back({head, true});
-    if (rest.empty()) return mistakes_.add(head, "a feature like 1x45 after the colon");
+    if (rest.empty())
+      return mistakes_.add(head, tr("a feature like 1x45 after the colon"));
     for (Edge& e : corner(words(rest), mistakes_)) {
       e.at = std::string(head);
       edges_.push_back(std::move(e));
@@ -123,8 +124,8 @@ class Notation {
   }
 
   void read_text(std::string& text, Word head, Word rest) {
-    if (!text.empty()) return mistakes_.add(head, "this line of the title once");
-    if (rest.empty()) return mistakes_.add(head, "a text after the colon");
+    if (!text.empty()) return mistakes_.add(head, tr("this line of the title once"));
+    if (rest.empty()) return mistakes_.add(head, tr("a text after the colon"));
     if (rest[0] != '"') {
       text = std::string(rest);
       return;
@@ -135,7 +136,7 @@ class Notation {
       if (mark && rest[++i] != '"') break;
       text += rest[i];
     }
-    mistakes_.add(rest, "a text that ends with its '\"'");
+    mistakes_.add(rest, tr("a text that ends with its '\"'"));
   }
 
   void place_corners() {
@@ -171,12 +172,10 @@ class Notation {
       if (two ? known(n.word.substr(0, bar), true) && known(n.word.substr(bar + 1), false)
               : known(n.word, n.face_too))
         continue;
-      mistakes_.add(
-          n.word,
-          fmt::format(
-              "an element of d1 to d{}{}{}", out_.outer.size(),
-              out_.inner.empty() ? "" : fmt::format(", b1 to b{}", out_.inner.size()),
-              n.face_too ? ", left, right, or two with | between" : ""));
+      mistakes_.add(n.word,
+                    say("an element of d1 to d{}{}{}", out_.outer.size(),
+                        out_.inner.empty() ? "" : say(", b1 to b{}", out_.inner.size()),
+                        n.face_too ? tr(", left, right, or two with | between") : ""));
     }
   }
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cctype>
 
+#include "base/say.hpp"
+
 namespace turnwright::exchange::notated {
 namespace {
 
@@ -25,8 +27,8 @@ bool take_chamfer(Word at, Word word, Edge& edge, Mistakes& mistakes) {
   }
   if (!axial || !word.empty() || !(angle >= 1 && angle <= 89)) {
     mistakes.add(at,
-                 "a chamfer like 1x45, its length along the axis and its angle of 1 "
-                 "to 89 deg from it");
+                 tr("a chamfer like 1x45, its length along the axis and its angle of 1 "
+                    "to 89 deg from it"));
     return false;
   }
   edge.chamfer_mm = axial;
@@ -58,8 +60,8 @@ bool take_undercut(Word word, Edge& edge, Mistakes& mistakes) {
   const auto sizes = product(rest);
   if (!form || !sizes || sizes->size() != 2) {
     mistakes.add(word,
-                 "an undercut of DIN 509 by form, radius and depth, like E0.8x0.3, or "
-                 "DIN76-A behind a thread");
+                 tr("an undercut of DIN 509 by form, radius and depth, like E0.8x0.3, or "
+                    "DIN76-A behind a thread"));
     return false;
   }
   edge.undercut = fmt::format("{}{}x{}", *form, (*sizes)[0], (*sizes)[1]);
@@ -67,7 +69,7 @@ bool take_undercut(Word word, Edge& edge, Mistakes& mistakes) {
 }
 
 bool take_radius(Word word, Word rest, std::optional<double>& radius_mm,
-                 const char* example, Mistakes& mistakes) {
+                 const std::string& example, Mistakes& mistakes) {
   radius_mm = number(rest);
   if (!radius_mm) {
     mistakes.add(word, example);
@@ -93,8 +95,8 @@ bool in_range(Word at, double x, double most, const char* unit, Mistakes& mistak
   const bool length = std::string_view(unit) == "mm";
   const double limit = most / (length ? u.mm : u.um);
   if (x > 0 && x <= limit) return true;
-  mistakes.add(at, fmt::format("a number > 0 and <= {:.6g} {}", limit,
-                               length ? u.length : u.roughness));
+  mistakes.add(
+      at, say("a number > 0 and <= {:.6g} {}", limit, length ? u.length : u.roughness));
   return false;
 }
 
@@ -117,11 +119,11 @@ bool take_roughness(Word word, Demands& demands, Mistakes& mistakes) {
   if (!Ra && !take(rest, {"rz"})) return false;
   auto& value = Ra ? demands.Ra_um : demands.Rz_um;
   if (value) {
-    mistakes.add(word, Ra ? "one Ra" : "one Rz");
+    mistakes.add(word, Ra ? tr("one Ra") : tr("one Rz"));
   } else if (const auto x = number(rest)) {
     if (in_range(word, *x, Ra ? kLargestRa_um : kLargestRz_um, "um", mistakes)) value = x;
   } else {
-    mistakes.add(word, Ra ? "a roughness like Ra1.6" : "a roughness like Rz6.3");
+    mistakes.add(word, Ra ? tr("a roughness like Ra1.6") : tr("a roughness like Rz6.3"));
   }
   return true;
 }
@@ -145,19 +147,20 @@ std::vector<Edge> corner(const std::vector<Word>& words, Mistakes& mistakes) {
       read = take_chamfer(words[i], words[i], edge, mistakes);
     } else if (take(first, {"round"})) {
       if (first.empty() && i + 1 < words.size()) first = words[++i];
-      read = take_radius(words[i], first, edge.radius_mm, "a rounded edge like round2",
-                         mistakes);
+      read = take_radius(words[i], first, edge.radius_mm,
+                         tr("a rounded edge like round2"), mistakes);
     } else if (begins_with_digit(first)) {
       read = take_chamfer(first, first, edge, mistakes);
     } else if (thread_undercut(first) || begins_undercut(first)) {
       read = take_undercut(words[i], edge, mistakes);
     } else if (take(first, {"r"}) && begins_with_digit(first)) {
-      read = take_radius(words[i], first, edge.fillet_mm, "a fillet like R0.8", mistakes);
+      read = take_radius(words[i], first, edge.fillet_mm, tr("a fillet like R0.8"),
+                         mistakes);
     } else {
       mistakes.add(
           words[i],
-          "a chamfer like 1x45, a rounded edge like round2, a fillet like R0.8 or "
-          "an undercut like E0.8x0.3 or DIN76-A");
+          tr("a chamfer like 1x45, a rounded edge like round2, a fillet like R0.8 or "
+             "an undercut like E0.8x0.3 or DIN76-A"));
     }
     if (read) edges.push_back(std::move(edge));
   }

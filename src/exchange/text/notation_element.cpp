@@ -4,6 +4,7 @@
 #include <cctype>
 
 #include "thread_words.hpp"
+#include "turnwright/base/language.hpp"
 
 namespace turnwright::exchange::notated {
 namespace {
@@ -27,9 +28,9 @@ bool take_d(Word& word) { return take(word, {"d", "Ø", "ø", "⌀"}); }
 // What to write instead of a habit of the pen; "" if the word is none of these.
 std::string hint(Word word) {
   if (word.ends_with(','))
-    return "';' or a new line before the next element: a comma is a decimal comma";
+    return tr("';' or a new line before the next element: a comma is a decimal comma");
   if (word == "/" || (take_signed_number(word) && word.empty()))
-    return "limits without blanks, like +0.02/-0.01";
+    return tr("limits without blanks, like +0.02/-0.01");
   return "";
 }
 
@@ -97,17 +98,17 @@ class ElementWords {
   }
 
   bool head_mistake(Word word) {
-    const char* wanted =
-        "a diameter like d50, two of a cone like d30-d40, or a thread "
-        "like M24x1.5 or 1/2-13 UNC";
-    if (e().shape == Shape::thread) wanted = "a thread like M24x1.5 or 1/2-13 UNC";
+    auto wanted =
+        tr("a diameter like d50, two of a cone like d30-d40, or a thread "
+           "like M24x1.5 or 1/2-13 UNC");
+    if (e().shape == Shape::thread) wanted = tr("a thread like M24x1.5 or 1/2-13 UNC");
     if (e().shape == Shape::groove)
-      wanted = "the diameter of the groove's floor like d26";
+      wanted = tr("the diameter of the groove's floor like d26");
     if (e().shape == Shape::as_stock)
-      wanted = "the bar that stays like d50, hex27 or square20";
-    if (e().shape == Shape::hole) wanted = "the diameter of the hole like d8";
+      wanted = tr("the bar that stays like d50, hex27 or square20");
+    if (e().shape == Shape::hole) wanted = tr("the diameter of the hole like d8");
     if (e().shape == Shape::cone || e().shape == Shape::arc)
-      wanted = "the diameters at both ends like d30-d40";
+      wanted = tr("the diameters at both ends like d30-d40");
     mistakes_.add(word, wanted);
     return false;
   }
@@ -181,7 +182,7 @@ class ElementWords {
       return false;
     }
     if (!begins_with_fit(rest)) return head_mistake(word);
-    mistakes_.add(word, "blanks between diameter, fit and length, like d50 h7 x 40");
+    mistakes_.add(word, tr("blanks between diameter, fit and length, like d50 h7 x 40"));
     return false;
   }
 
@@ -190,11 +191,11 @@ class ElementWords {
     auto& grinding = e().demands.grinding_mm;
     const bool turned = e().shape == Shape::cylinder || e().shape == Shape::cone;
     if (grinding)
-      mistakes_.add(word, "one grinding allowance");
+      mistakes_.add(word, tr("one grinding allowance"));
     else if (const auto x = number(rest); !x || !turned)
       mistakes_.add(word,
-                    "a grinding allowance on the diameter of a cylinder or cone, like "
-                    "grind0.3");
+                    tr("a grinding allowance on the diameter of a cylinder or cone, like "
+                       "grind0.3"));
     else if (in_range(word, *x, 5, "mm", mistakes_))
       grinding = x;
   }
@@ -207,9 +208,9 @@ class ElementWords {
     const auto knurl = part::knurl(text);
     if (!knurl) return false;
     if (e().knurl)
-      mistakes_.add(word, "one knurl");
+      mistakes_.add(word, tr("one knurl"));
     else if (e().shape != Shape::cylinder || out_.inner)
-      mistakes_.add(word, "no knurl: only an outer cylinder has one");
+      mistakes_.add(word, tr("no knurl: only an outer cylinder has one"));
     else
       e().knurl = part::designation(*knurl);
     return true;
@@ -220,8 +221,8 @@ class ElementWords {
     if (take(rest, {"x", "×"})) return read_length(word, rest);
     if (e().shape == Shape::as_stock)
       return mistakes_.add(word,
-                           "a length like x 20 alone: what stays as the bar is has no "
-                           "fit, limits or roughness");
+                           tr("a length like x 20 alone: what stays as the bar is has no "
+                              "fit, limits or roughness"));
     if (read_knurl(word)) return;
     if (take_roughness(word, e().demands, mistakes_)) return;
     if (take(rest, {"grind"})) return read_grinding(word, rest);
@@ -231,16 +232,16 @@ class ElementWords {
     if (const auto l = limits(word)) {
       if (e().length_mm > 0)
         return mistakes_.add(word,
-                             "limits of the diameter before the length: d50 "
-                             "+0.02/-0.01 x 40 (those of a length: length left to "
-                             "right +0.1/-0.1)");
+                             tr("limits of the diameter before the length: d50 "
+                                "+0.02/-0.01 x 40 (those of a length: length left to "
+                                "right +0.1/-0.1)"));
       return read_limits(word, *l);
     }
     if (const auto said = hint(word); !said.empty()) return add_hint(word, said);
-    mistakes_.add(word, thread ? "a length like x 40, a class like 6g, limits like "
-                                 "+0.02/-0.01 or a roughness like Ra1.6"
-                               : "a length like x 40, a fit like h7, limits like "
-                                 "+0.02/-0.01 or a roughness like Ra1.6");
+    mistakes_.add(word, thread ? tr("a length like x 40, a class like 6g, limits like "
+                                    "+0.02/-0.01 or a roughness like Ra1.6")
+                               : tr("a length like x 40, a fit like h7, limits like "
+                                    "+0.02/-0.01 or a roughness like Ra1.6"));
   }
 
   // "+0.02 / -0.01" is one mistake; what stands behind a comma is another element.
@@ -255,12 +256,12 @@ class ElementWords {
     const int before = lengths_++;
     const auto x = number(rest);
     if (const auto said = hint(word); !x && !said.empty()) return add_hint(word, said);
-    if (!x) return mistakes_.add(word, "a length like x 40");
+    if (!x) return mistakes_.add(word, tr("a length like x 40"));
     if (!in_range(word, *x, kLargest_mm, "mm", mistakes_)) return;
     if (before == 1 && e().shape == Shape::thread && !pitch_given_)
       e().pitch_mm = e().length_mm;
     else if (before > 0)
-      return mistakes_.add(word, "one length");
+      return mistakes_.add(word, tr("one length"));
     e().length_mm = *x;
   }
 
@@ -273,7 +274,7 @@ class ElementWords {
     if (!take(rest, {"r"}) || !begins_with_number(rest)) return false;
     const auto radius = number(rest);
     if (!radius)
-      mistakes_.add(word, "a radius like R60");
+      mistakes_.add(word, tr("a radius like R60"));
     else if (in_range(word, *radius, 1e6, "mm", mistakes_))
       e().radius_mm = *radius;
     radius_given_ = true;
@@ -283,8 +284,8 @@ class ElementWords {
   void read_fit(Word word) {
     if (e().shape == Shape::cone || e().shape == Shape::arc)
       return mistakes_.add(word,
-                           "limits like +0.02/-0.01 here; fits are of cylinders, "
-                           "grooves and threads");
+                           tr("limits like +0.02/-0.01 here; fits are of cylinders, "
+                              "grooves and threads"));
     if (e().demands.fit || e().demands.limits) return sized_twice(word);
     e().demands.fit = std::string(word);
   }
@@ -292,17 +293,19 @@ class ElementWords {
   void read_limits(Word word, const part::Limits& l) {
     if (e().demands.fit || e().demands.limits) return sized_twice(word);
     if (!(l.lower_mm < l.upper_mm))
-      return mistakes_.add(word, "limits that differ, like +0.02/-0.01");
+      return mistakes_.add(word, tr("limits that differ, like +0.02/-0.01"));
     e().demands.limits = l;
   }
 
-  void sized_twice(Word word) { mistakes_.add(word, "one fit, or limits instead of it"); }
+  void sized_twice(Word word) {
+    mistakes_.add(word, tr("one fit, or limits instead of it"));
+  }
 
   void finish() {
     if (lengths_ == 0 && !broken_off_)
-      mistakes_.add(words_.back(), "a length like x 40 for this element");
+      mistakes_.add(words_.back(), tr("a length like x 40 for this element"));
     if (e().shape == Shape::arc && !radius_given_)
-      mistakes_.add(words_.back(), "a radius like R60 for this arc");
+      mistakes_.add(words_.back(), tr("a radius like R60 for this arc"));
   }
 
   const std::vector<Word>& words_;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "turnwright/base/language.hpp"
+
 namespace turnwright::exchange::notated {
 namespace {
 
@@ -41,7 +43,7 @@ class Rest {
   }
   /// Always false.
   bool mistake(const std::string& expected) {
-    mistakes_.add(here(), expected, done() ? "nothing more after it" : "");
+    mistakes_.add(here(), expected, done() ? tr("nothing more after it") : "");
     return false;
   }
   /// Likewise, of a word already taken.
@@ -49,7 +51,7 @@ class Rest {
     mistakes_.add(at, expected);
     return false;
   }
-  bool end() { return done() || mistake("nothing more here"); }
+  bool end() { return done() || mistake(tr("nothing more here")); }
 
  private:
   const std::vector<Word>& words_;
@@ -59,15 +61,15 @@ class Rest {
 
 bool take_id(Rest& rest, Features& out, std::string& id, Named named) {
   if (rest.done())
-    return rest.mistake(named.face_too ? "an element or a face: d2, left, d1|d2"
-                                       : "an element like d2");
+    return rest.mistake(named.face_too ? tr("an element or a face: d2, left, d1|d2")
+                                       : tr("an element like d2"));
   named.word = rest.take();
   id = std::string(named.word);
   out.named.push_back(named);
   return true;
 }
 
-bool take_value(Rest& rest, const char* expected, double& value) {
+bool take_value(Rest& rest, const std::string& expected, double& value) {
   Word word = rest.done() ? Word() : rest.here();
   const auto x = take_signed_number(word);
   take(word, {"°"});
@@ -81,13 +83,13 @@ void read_face(Rest rest, Features& out, Mistakes& mistakes) {
   FaceOf face;
   if (!take_id(rest, out, face.id, {.word = {}, .face_too = true})) return;
   if (rest.done()) {
-    rest.mistake("a roughness like Ra1.6");
+    rest.mistake(tr("a roughness like Ra1.6"));
     return;
   }
   while (!rest.done())
     if (take_roughness(rest.here(), face.demands, mistakes))
       rest.take();
-    else if (!rest.mistake("a roughness like Ra1.6"))
+    else if (!rest.mistake(tr("a roughness like Ra1.6")))
       return;
   out.faces.push_back(std::move(face));
 }
@@ -98,7 +100,8 @@ bool take_datum(Rest& rest, Features& out, part::Tolerance& t) {
   if (dash == Word::npos)
     return take_id(rest, out, t.datum, {.word = {}, .face_too = true});
   const Word word = rest.take(), a = word.substr(0, dash), b = word.substr(dash + 1);
-  if (a == b) return rest.mistake("two different elements on either side of '-'", word);
+  if (a == b)
+    return rest.mistake(tr("two different elements on either side of '-'"), word);
   t.datum = std::string(a);
   t.common_datum = std::string(b);
   out.named.push_back({a, false});
@@ -112,7 +115,7 @@ bool read_zone(Rest& rest, Features& out, part::Tolerance& t, Mistakes& mistakes
   if (rest.take("to") && !take_datum(rest, out, t)) return false;
   const Word width = rest.here();
   constexpr double kWidest_mm = 10;
-  return take_value(rest, "the width of the tolerance zone like 0.02", t.value_mm) &&
+  return take_value(rest, tr("the width of the tolerance zone like 0.02"), t.value_mm) &&
          in_range(width, t.value_mm, kWidest_mm, "mm", mistakes);
 }
 
@@ -120,14 +123,14 @@ bool read_zone(Rest& rest, Features& out, part::Tolerance& t, Mistakes& mistakes
 bool read_size(Rest& rest, Features& out, part::Tolerance& t) {
   if (t.kind == ToleranceKind::length) {
     if (!take_id(rest, out, t.between[0], {.word = {}, .face_too = true})) return false;
-    if (!rest.take("to")) return rest.mistake("to and the second face");
+    if (!rest.take("to")) return rest.mistake(tr("to and the second face"));
     if (!take_id(rest, out, t.between[1], {.word = {}, .face_too = true})) return false;
   } else if (!take_id(rest, out, t.of, {})) {
     return false;
   }
   t.limits = rest.done() ? std::nullopt : limits(rest.here());
   if (!t.limits || !(t.limits->lower_mm < t.limits->upper_mm))
-    return rest.mistake("limits like +0.05/-0.02 or ±0.05");
+    return rest.mistake(tr("limits like +0.05/-0.02 or ±0.05"));
   rest.take();
   t.value_mm = t.limits->upper_mm - t.limits->lower_mm;
   return true;
@@ -144,11 +147,11 @@ void read_tolerance(Rest rest, ToleranceKind kind, Features& out, Mistakes& mist
 
 bool take_count(Rest& rest, int& count) {
   double value = 0;
-  if (!take_value(rest, "how often like times 6", value)) return false;
+  if (!take_value(rest, tr("how often like times 6"), value)) return false;
   count = value >= 2 && value <= 100 && value == std::floor(value)
               ? static_cast<int>(value)
               : 0;
-  return count > 0 || rest.mistake("a whole number from 2 to 100 before this");
+  return count > 0 || rest.mistake(tr("a whole number from 2 to 100 before this"));
 }
 
 // "2x25" of a flat, "10x5x40" of a keyway or slot.
@@ -158,8 +161,8 @@ bool take_sizes(Rest& rest, Milled& m) {
   const bool all = sizes && sizes->size() == (flat ? 2 : 3) &&
                    *std::min_element(sizes->begin(), sizes->end()) > 0;
   if (!all)
-    return rest.mistake(flat ? "depth and length like 2x25, each > 0"
-                             : "width, depth and length like 10x5x40, each > 0");
+    return rest.mistake(flat ? tr("depth and length like 2x25, each > 0")
+                             : tr("width, depth and length like 10x5x40, each > 0"));
   rest.take();
   m.width_mm = flat ? 0 : sizes->front();
   m.depth_mm = (*sizes)[sizes->size() - 2];
@@ -181,7 +184,7 @@ std::optional<double> positive_after(Rest& rest,
 // "d6 H13 x 8", "d6 through wall" of a cross hole.
 bool take_hole(Rest& rest, Milled& m) {
   const auto D = positive_after(rest, {"d", "Ø", "ø", "⌀"});
-  if (!D) return rest.mistake("the diameter of the hole like d6, > 0");
+  if (!D) return rest.mistake(tr("the diameter of the hole like d6, > 0"));
   m.width_mm = *D;
   if (!rest.done() && is_fit(rest.here()))
     m.demands.fit = std::string(rest.take());
@@ -196,7 +199,7 @@ bool take_hole(Rest& rest, Milled& m) {
   }
   const auto depth = positive_after(rest, {"x", "×"});
   if (!depth)
-    return rest.mistake("its depth like x 8, > 0, or through wall, or through part");
+    return rest.mistake(tr("its depth like x 8, > 0, or through wall, or through part"));
   m.depth_mm = *depth;
   return true;
 }
@@ -206,14 +209,14 @@ void read_milled(Rest rest, Milled::Kind kind, Features& out) {
   const bool hole = kind == Milled::Kind::cross_hole;
   if (!(hole ? take_hole(rest, m) : take_sizes(rest, m))) return;
   bool read = rest.take("on") ? take_id(rest, out, m.on, {})
-                              : rest.mistake("on and an element, like on d2");
-  const char* wanted = hole ? "at and its middle along the part, like at 12"
-                            : "at and its left end along the part, like at 12";
-  read = read &&
-         (rest.take("at") ? take_value(rest, "a place along the part like at 12", m.z_mm)
-                          : rest.mistake(wanted));
+                              : rest.mistake(tr("on and an element, like on d2"));
+  const auto wanted = hole ? tr("at and its middle along the part, like at 12")
+                           : tr("at and its left end along the part, like at 12");
+  read = read && (rest.take("at")
+                      ? take_value(rest, tr("a place along the part like at 12"), m.z_mm)
+                      : rest.mistake(wanted));
   if (read && rest.take("angle"))
-    read = take_value(rest, "an angle like 90", m.angle_deg);
+    read = take_value(rest, tr("an angle like 90"), m.angle_deg);
   if (read && rest.take("times")) read = take_count(rest, m.count);
   if (read && rest.end()) out.milled.push_back(std::move(m));
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "exchange/contour/elements.hpp"
+#include "turnwright/base/language.hpp"
 
 namespace turnwright::exchange::notated {
 namespace {
@@ -43,7 +44,7 @@ Units units_of(const std::vector<Word>& statements, Mistakes& mistakes) {
     if (same(unit, "in") || same(unit, "inch"))
       units = kInches;
     else if (!same(unit, "mm"))
-      mistakes.add(unit.empty() ? s : unit, "mm or in");
+      mistakes.add(unit.empty() ? s : unit, tr("mm or in"));
   }
   return units;
 }

@@ -7,6 +7,7 @@
 #include <functional>
 #include <numbers>
 
+#include "base/say.hpp"
 #include "hole_operations.hpp"
 #include "milled_operations.hpp"
 #include "planning/clamping/positions.hpp"
@@ -109,7 +110,7 @@ std::optional<int> passes_of(const Site& s, const Asked& a, int otherwise,
   const int least = at_depth(*c.ap_mm);
   const int n = c.passes.value_or(least);
   if (n >= least) return n;
-  refuse(s, a, fmt::format("{} passes of {:g} mm are too few", n, *c.ap_mm));
+  refuse(s, a, say("{} passes of {:g} mm are too few", n, *c.ap_mm));
   return std::nullopt;
 }
 
@@ -121,24 +122,24 @@ bool bears(const Site& s, const Fitted& f, const CutElement& e) {
 }
 
 void add_groove(Site& s, const CutElement& e) {
-  auto a =
-      asked(s, e, FixedUse::grooving, "groove", [&](const FixedTool& t, double size) {
-        return size <= e.length_mm * (1 + 1e-9) && e.cut.depth_mm <= t.reach;
-      });
+  auto a = asked(s, e, FixedUse::grooving, to_translate("groove"),
+                 [&](const FixedTool& t, double size) {
+                   return size <= e.length_mm * (1 + 1e-9) && e.cut.depth_mm <= t.reach;
+                 });
   const auto f = fitted_if(s.p, a, [&](const Fitted& each) { return bears(s, each, e); });
   if (!f.tool)
     return refuse(s, a,
-                  fmt::format("no blade of the tools is for {}, at most {:g} mm wide and "
-                              "reaches {:g} mm deep",
-                              s.p.material.name, e.length_mm, e.cut.depth_mm));
+                  say("no blade of the tools is for {}, at most {:g} mm wide and "
+                      "reaches {:g} mm deep",
+                      s.p.material.name, e.length_mm, e.cut.depth_mm));
   const auto plunges = passes_of(s, a, times(e.length_mm, f.size_mm), [&](double ap) {
     return times(e.length_mm, std::min(ap, f.size_mm));
   });
   if (plunges && *plunges * f.size_mm < e.length_mm * (1 - 1e-9))
     return refuse(s, a,
-                  fmt::format("{} plunges of a blade of {:g} mm are less than its width, "
-                              "{:g} mm",
-                              *plunges, f.size_mm, e.length_mm));
+                  say("{} plunges of a blade of {:g} mm are less than its width, "
+                      "{:g} mm",
+                      *plunges, f.size_mm, e.length_mm));
   if (!plunges) return;
   const double n = *plunges, step = n > 1 ? (e.length_mm - f.size_mm) / (n - 1) : 0;
   const double back = e.cut.depth_mm + above_mm(e);
@@ -158,26 +159,30 @@ void add_groove(Site& s, const CutElement& e) {
 }
 
 // What an inner thread lacks beside a threading tool.
-constexpr const char* kNotTapped =
-    " in a bore of {:g} mm, and no tap that goes as deep with its lead, and has its "
-    "drill, makes it: a tapped thread is the innermost bore of its end or has a hole of "
-    "its drill's diameter behind it, and no edge but a chamfer that a countersink cuts";
+std::string not_tapped(double bored_mm) {
+  return say(
+      " in a bore of {:g} mm, and no tap that goes as deep with its lead, and has its "
+      "drill, makes it: {}",
+      bored_mm,
+      tr("a tapped thread is the innermost bore of its end or has a hole of its drill's "
+         "diameter behind it, and no edge but a chamfer that a countersink cuts"));
+}
 
 // Eq. (4).
 void add_thread(Site& s, const CutElement& e) {
   const double P = e.cut.pitch_mm;
-  auto a = asked(s, e, FixedUse::threading, "thread", [&](const FixedTool& t, double) {
-    return t.pitch_mm.lower <= P && P <= t.pitch_mm.upper;
-  });
+  auto a = asked(s, e, FixedUse::threading, to_translate("thread"),
+                 [&](const FixedTool& t, double) {
+                   return t.pitch_mm.lower <= P && P <= t.pitch_mm.upper;
+                 });
   auto f = fitted(s.p, a);
   if (!f.tool)
     return refuse(s, a,
-                  fmt::format("no threading tool of the tools is for {} and a pitch of "
-                              "{:g} mm{}",
-                              s.p.material.name, P,
-                              e.inner ? fmt::format(kNotTapped, e.bored_mm) : ""));
+                  say("no threading tool of the tools is for {} and a pitch of "
+                      "{:g} mm{}",
+                      s.p.material.name, P, e.inner ? not_tapped(e.bored_mm) : ""));
   if (a.given && std::abs(a.given->conditions.f_mm_rev.value_or(P) / P - 1) > 1e-9)
-    return refuse(s, a, fmt::format("its feed is its pitch, {:g} mm", P));
+    return refuse(s, a, say("its feed is its pitch, {:g} mm", P));
   f.at.f_mm_rev = P;
   if (f.at.window) f.at.window->f_mm_rev = {P, P};
   const double D = e.cut.drawn.left_mm;
@@ -188,18 +193,17 @@ void add_thread(Site& s, const CutElement& e) {
   const auto room = thread_room(s.p, s.setup, {e.inner, e.index}, e.root_h());
   const auto way_in = run_in_mm(room, P);
   if (!way_in && room.rising_mm > kRunInPitches * P)
-    return refuse(
-        s, a,
-        fmt::format("its run-in would cut {:.3g} mm of what rises to it in front, "
-                    "more than three pitches",
-                    room.rising_mm));
+    return refuse(s, a,
+                  say("its run-in would cut {:.3g} mm of what rises to it in front, "
+                      "more than three pitches",
+                      room.rising_mm));
   if (!way_in) {
     const auto [has, needs] =
         readable_apart(room.before_mm, least_run_in_mm(room, P) + P / 2);
     return refuse(s, a,
-                  fmt::format("its tool has {} mm to come in behind what is higher than "
-                              "the thread's root, and needs {} mm",
-                              has, needs));
+                  say("its tool has {} mm to come in behind what is higher than "
+                      "the thread's root, and needs {} mm",
+                      has, needs));
   }
   const double run_in = *way_in;
   if (unfaced(s, a, e, e.around.z0 + run_in)) return;
@@ -233,19 +237,20 @@ void add_knurl(Site& s, const CutElement& e) {
   const auto way_of = [&](double width) {
     return knurl_way(room, e.around.z0, e.around.z1, width);
   };
-  auto a =
-      asked(s, e, FixedUse::knurling, "knurl", [&](const FixedTool& tool, double width) {
-        return tool.pitch_mm.lower <= t && t <= tool.pitch_mm.upper && way_of(width);
-      });
+  auto a = asked(s, e, FixedUse::knurling, to_translate("knurl"),
+                 [&](const FixedTool& tool, double width) {
+                   return tool.pitch_mm.lower <= t && t <= tool.pitch_mm.upper &&
+                          way_of(width);
+                 });
   const auto f = fitted(s.p, a);
   if (!f.tool)
     return refuse(s, a,
-                  fmt::format("no knurling tool of the tools is for {} and a pitch of "
-                              "{:g} mm, with a wheel that has room on {:g} mm",
-                              s.p.material.name, t, e.length_mm));
+                  say("no knurling tool of the tools is for {} and a pitch of "
+                      "{:g} mm, with a wheel that has room on {:g} mm",
+                      s.p.material.name, t, e.length_mm));
   const auto count = passes_of(s, a, 1, [](double) { return 1; });
   if (!count) return;
-  if (*count > 1) return refuse(s, a, "it is pressed in one pass");
+  if (*count > 1) return refuse(s, a, tr("it is pressed in one pass"));
   const KnurlWay along_z = *way_of(f.size_mm);
   const double from = along_z.from_mm, to = along_z.to_mm;
   if (unfaced(s, a, e, from + f.size_mm)) return;
@@ -279,9 +284,9 @@ bool ends_before_jaws(const Site& s, const Asked& a, const CutElement& e, double
   if (walled || left >= needed - 1e-5) return true;
   const auto [has, needs] = readable_apart(left, needed);
   refuse(s, a,
-         fmt::format("it ends {} mm before the jaws, its tool's corner needs {} mm: grip "
-                     "less",
-                     has, needs));
+         say("it ends {} mm before the jaws, its tool's corner needs {} mm: grip "
+             "less",
+             has, needs));
   return false;
 }
 
@@ -309,21 +314,22 @@ AuxiliaryOperation profiled(const Site& s, const Asked& a, const Fitted& f,
 
 // Eq. (5).
 void add_arc(Site& s, const CutElement& e) {
-  auto a = asked(s, e, FixedUse::profiling, "arc", [&](const FixedTool& t, double) {
-    return e.cut.convex || t.re_mm <= e.cut.radius_mm;
-  });
+  auto a = asked(s, e, FixedUse::profiling, to_translate("arc"),
+                 [&](const FixedTool& t, double) {
+                   return e.cut.convex || t.re_mm <= e.cut.radius_mm;
+                 });
   const auto f = fitted(s.p, a);
   if (!f.tool)
-    return refuse(
-        s, a, fmt::format("no profiling tool of the tools is for {}", s.p.material.name));
+    return refuse(s, a,
+                  say("no profiling tool of the tools is for {}", s.p.material.name));
   const auto count = passes_of(s, a, times(e.cut.depth_mm, f.tool->ap_mm),
                                [&](double ap) { return times(e.cut.depth_mm, ap); });
   if (!count) return;
   const double D = e.large_mm, ap = e.cut.depth_mm / *count;
   if (ap > f.tool->ap_mm * (1 + 1e-9))
     return refuse(s, a,
-                  fmt::format("{} passes of {:.4g} mm are deeper than the {:g} mm of {}",
-                              *count, ap, f.tool->ap_mm, f.tool->id));
+                  say("{} passes of {:.4g} mm are deeper than the {:g} mm of {}", *count,
+                      ap, f.tool->ap_mm, f.tool->id));
   if (unfaced(s, a, e, e.around.z0 + kBefore_mm)) return;
   if (!ends_before_jaws(s, a, e, f.tool->re_mm)) return;
   // Path of the tip, which runs round a centre beside that of the arc.
@@ -349,17 +355,16 @@ void add_chamfer(Site& s, std::size_t index, bool inner) {
   const double bore = -2 * around.h0, D = inner ? bore + 2 * c.radial_mm : 2 * around.h0;
   const Asked a{
       FixedUse::profiling,
-      "chamfer",
+      to_translate("chamfer"),
       id,
       inner,
       given_cut(s, id),
       [&](const FixedTool& t, double) { return !inner || t.min_bore_mm <= bore; }};
   const auto f = fitted(s.p, a);
   if (!f.tool)
-    return refuse(
-        s, a,
-        fmt::format("no profiling tool of the tools is for {}{}", s.p.material.name,
-                    inner ? fmt::format(" in a bore of {:g} mm", bore) : std::string()));
+    return refuse(s, a,
+                  say("no profiling tool of the tools is for {}{}", s.p.material.name,
+                      inner ? say(" in a bore of {:g} mm", bore) : std::string()));
   const double chord = std::hypot(c.axial_mm, c.radial_mm);
   const double length =
       c.round ? std::numbers::pi / 2 * (c.axial_mm + f.tool->re_mm) : chord;
@@ -396,13 +401,13 @@ void add_parting(Site& s) {
             return size <= room && (D - hole) / 2 <= t.reach;
           }};
   if (s.clamping == Clamping::between_centres)
-    return refuse(s, a, "a part between centres is not parted off");
+    return refuse(s, a, tr("a part between centres is not parted off"));
   const auto f = fitted(s.p, a);
   if (!f.tool)
     return refuse(s, a,
-                  fmt::format("no blade of the tools is for {}, reaches {:g} mm deep and "
-                              "fits between jaws and part, {:.4g} mm",
-                              s.p.material.name, (D - hole) / 2, room));
+                  say("no blade of the tools is for {}, reaches {:g} mm deep and "
+                      "fits between jaws and part, {:.4g} mm",
+                      s.p.material.name, (D - hole) / 2, room));
   const double z = -part::length_mm(s.p.drawing) - *stock.parted_mm - f.size_mm;
   s.out.after.push_back(plunged(
       s, a, f, hole, D, 1,
@@ -417,8 +422,7 @@ void add_cut(Site& s, const Element& e, std::size_t index, bool inner,
   if (s.p.operations && !drilled && !given_cut(s, e.id)) {
     s.out.conflicts.push_back(
         {"operations", setup_label(s.setup), 0, 0, "",
-         fmt::format(
-             "{} has no operation of kind \"fixed\": only its blank would be made",
+         say("{} has no operation of kind \"fixed\": only its blank would be made",
              e.id)});
     return;
   }

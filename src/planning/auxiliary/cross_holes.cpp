@@ -1,9 +1,8 @@
 #include "cross_holes.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
+#include "base/say.hpp"
 #include "fixed_operation.hpp"
 #include "milled_choice.hpp"
 #include "planning/surface/operation_result.hpp"
@@ -64,7 +63,7 @@ void add_cross_hole(const PreparedPart& p, const MilledPlace& m, std::size_t set
   const double behind = behind_mm(p, m);
   const bool fixes = m.drilling.vc_m_min || m.drilling.f_mm_rev;
   const Asked a{FixedUse::drilling,
-                "drill",
+                to_translate("drill"),
                 m.id,
                 false,
                 fixes ? &given : nullptr,
@@ -81,13 +80,12 @@ void add_cross_hole(const PreparedPart& p, const MilledPlace& m, std::size_t set
   if (!f.tool)
     return fixed::refuse(
         s, a,
-        fmt::format(
-            "none of the drills{} is for {}, {:g} mm in diameter, reaches {:.4g} mm "
+        say("none of the drills{} is for {}, {:g} mm in diameter, reaches {:.4g} mm "
             "with its holder clear of what stands beside the hole{}",
-            m.drills.empty() ? "" : " that it may have", p.material.name, m.width_mm,
+            m.drills.empty() ? "" : tr(" that it may have"), p.material.name, m.width_mm,
             deep,
             m.through == Through::no
-                ? fmt::format(" and has a point that ends before {:.4g} mm", behind)
+                ? say(" and has a point that ends before {:.4g} mm", behind)
                 : ""));
   out.after.push_back(drilled(s, a, f, m));
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/say.hpp"
 #include "chosen_conditions.hpp"
 #include "planning/clamping/clamping_speed.hpp"
 #include "planning/clamping/positions.hpp"
@@ -89,9 +90,11 @@ Fitted fitted_if(const PlanRequest& p, const Asked& a,
 }
 
 void refuse(const Site& s, const Asked& a, const std::string& why) {
+  const auto task = a.use == FixedUse::parting
+                        ? say("part {}", a.surface)  // "part" is the workpiece elsewhere
+                        : fmt::format("{} {}", tr(a.does), a.surface);
   s.out.conflicts.push_back({fmt::format("{} {}", a.does, a.surface),
-                             setup_label(s.setup), 0, 0, "",
-                             fmt::format("{} {}: {}", a.does, a.surface, why)});
+                             setup_label(s.setup), 0, 0, "", task + ": " + why});
 }
 
 bool names_tool(const PlanRequest& p, const OperationRequest& o, FixedUse use) {
@@ -202,8 +205,8 @@ AuxiliaryOperation operation(const Site& s, const Asked& a, const Fitted& f,
                       0,
                       0,
                       "fixed",
-                      f.at.window ? "the best of the tool's window"
-                                  : "catalogue conditions, nothing is chosen"};
+                      f.at.window ? tr("the best of the tool's window")
+                                  : tr("catalogue conditions, nothing is chosen")};
   return o;
 }
 
@@ -284,8 +287,8 @@ AuxiliaryOperation at_best(const Site& s, Fitted f, const std::vector<double>& D
 bool unfaced(const Site& s, const Asked& a, const CutElement& e, double z) {
   if (!(e.around.front > 0 && z > 0)) return false;
   refuse(s, a,
-         fmt::format("the end that it begins at is not faced, {:.3g} mm stand before it",
-                     e.around.front));
+         say("the end that it begins at is not faced, {:.3g} mm stand before it",
+             e.around.front));
   return true;
 }
 

@@ -1,10 +1,9 @@
 #include "hole_operations.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
+#include "base/say.hpp"
 #include "planning/clamping/centre_clearance.hpp"
 #include "planning/paths/edges.hpp"
 #include "turnwright/base/units.hpp"
@@ -110,7 +109,7 @@ bool drives(const PreparedPart& p, std::size_t setup, const Fitted& f) {
 
 Asked drilling(const Hole& h, const OperationRequest* given) {
   return {FixedUse::drilling,
-          "drill",
+          to_translate("drill"),
           h.first,
           false,
           given,
@@ -145,7 +144,7 @@ bool asks_for_other_passes(const Site& s, const Asked& a, double ap_mm) {
   const auto& c = a.given->conditions;
   if (c.passes.value_or(1) == 1 && std::abs(c.ap_mm.value_or(ap_mm) - ap_mm) < 1e-6)
     return false;
-  refuse(s, a, fmt::format("it cuts {:.4g} mm deep in one pass", ap_mm));
+  refuse(s, a, say("it cuts {:.4g} mm deep in one pass", ap_mm));
   return true;
 }
 
@@ -182,7 +181,7 @@ struct Sink {
 void countersink(Site& s, const Sink& k) {
   const double D = k.hole_mm + 2 * k.chamfer.radial_mm, from_mm = k.from_mm;
   const Asked a{FixedUse::countersinking,
-                "countersink",
+                to_translate("countersink"),
                 k.id,
                 false,
                 given_on(s, k.id, FixedUse::countersinking),
@@ -193,10 +192,10 @@ void countersink(Site& s, const Sink& k) {
   const auto f = fitted(s.p, a);
   if (!f.tool)
     return refuse(s, a,
-                  fmt::format("no countersink of the tools is for {}, of the chamfer's "
-                              "angle, at least {:g} mm in diameter and passes the bores "
-                              "before it",
-                              s.p.material.name, D));
+                  say("no countersink of the tools is for {}, of the chamfer's "
+                      "angle, at least {:g} mm in diameter and passes the bores "
+                      "before it",
+                      s.p.material.name, D));
   if (asks_for_other_passes(s, a, (D - from_mm) / 2)) return;
   const auto kc = cutting::kienzle_at(s.p.material, f.tool->gamma_deg);
   const double in = cutting::drill_point_mm(D, f.tool->point_deg), fed = kBefore_mm + in;
@@ -216,7 +215,8 @@ void countersink(Site& s, const Sink& k) {
 void add_countersinking(Site& s, const CutElement& e) {
   const auto& c = e.around.front_chamfer;
   if (!(c.axial_mm > 0)) return;
-  const Asked a{FixedUse::countersinking, "countersink", e.id, false, nullptr, {}};
+  const Asked a{
+      FixedUse::countersinking, to_translate("countersink"), e.id, false, nullptr, {}};
   if (unfaced(s, a, e, e.around.z0 + kBefore_mm)) return;
   countersink(s, {e.id, c, -2 * e.around.h0, part::opened_mm(e.cut),
                   part::way_in_mm(s.p.drawing, e.index) - 2 * kAboveBore_mm,
@@ -227,7 +227,7 @@ void add_countersinking(Site& s, const CutElement& e) {
 void add_reaming(Site& s, const CutElement& e) {
   const double D = e.cut.drawn.left_mm, deep = e.length_mm + e.cut.lead_mm;
   const Asked a{FixedUse::reaming,
-                "ream",
+                to_translate("ream"),
                 e.id,
                 false,
                 given_on(s, e.id, FixedUse::reaming),
@@ -237,9 +237,9 @@ void add_reaming(Site& s, const CutElement& e) {
   const auto f = fitted(s.p, a);
   if (!f.tool)
     return refuse(s, a,
-                  fmt::format("no reamer of the tools is for {}, {:g} mm in diameter and "
-                              "reaches {:g} mm deep",
-                              s.p.material.name, D, deep));
+                  say("no reamer of the tools is for {}, {:g} mm in diameter and "
+                      "reaches {:g} mm deep",
+                      s.p.material.name, D, deep));
   if (asks_for_other_passes(s, a, e.cut.depth_mm)) return;
   const auto kc = cutting::kienzle_at(s.p.material, f.tool->gamma_deg);
   s.out.after.push_back(through_hole(s, a, f, e, n_cap_rpm(s), [&](const Fitted& at) {
@@ -252,7 +252,7 @@ void add_tapping(Site& s, const CutElement& e) {
   const double d = e.cut.drawn.left_mm, P = e.cut.pitch_mm;
   const double deep = e.length_mm + e.cut.lead_mm;
   const Asked a{FixedUse::tapping,
-                "tap",
+                to_translate("tap"),
                 e.id,
                 false,
                 given_on(s, e.id, FixedUse::tapping),
@@ -262,14 +262,13 @@ void add_tapping(Site& s, const CutElement& e) {
                 }};
   auto f = fitted(s.p, a);
   if (!f.tool)
-    return refuse(
-        s, a,
-        fmt::format("no tap of the tools is for {} and a thread of {:g} mm with "
-                    "a pitch of {:g} mm, {:g} mm deep",
-                    s.p.material.name, d, P, deep));
+    return refuse(s, a,
+                  say("no tap of the tools is for {} and a thread of {:g} mm with "
+                      "a pitch of {:g} mm, {:g} mm deep",
+                      s.p.material.name, d, P, deep));
   if (asks_for_other_passes(s, a, e.cut.depth_mm)) return;
   if (a.given && std::abs(a.given->conditions.f_mm_rev.value_or(P) / P - 1) > 1e-9)
-    return refuse(s, a, fmt::format("its feed is its pitch, {:g} mm", P));
+    return refuse(s, a, say("its feed is its pitch, {:g} mm", P));
   f.size_mm = d;
   f.at.f_mm_rev = P;
   if (f.at.window) f.at.window->f_mm_rev = {P, P};
@@ -296,7 +295,7 @@ void add_centre(Site& s, const char* face, double end_mm) {
                              [](const auto& t) { return t.use == FixedUse::centring; }))
     return;
   Asked a{FixedUse::centring,
-          "centre",
+          to_translate("centre"),
           face,
           false,
           given_on(s, face),
@@ -309,10 +308,9 @@ void add_centre(Site& s, const char* face, double end_mm) {
     s.out.before.push_back(drilled(s, a, f, catalogue::tip_depth_mm(*f.tool, f.size_mm)));
   else
     refuse(s, a,
-           drawn ? fmt::format("no centre drill of the tools is for {} and {}",
-                               s.p.material.name, part::designation(*drawn))
-                 : fmt::format(
-                       "no centre drill of the tools is for {} and an end of {:g} mm",
+           drawn ? say("no centre drill of the tools is for {} and {}", s.p.material.name,
+                       part::designation(*drawn))
+                 : say("no centre drill of the tools is for {} and an end of {:g} mm",
                        s.p.material.name, end_mm));
 }
 
@@ -329,16 +327,15 @@ void add_drilling(Site& s, part::End end) {
   else
     refuse(
         s, a,
-        fmt::format(
-            "none of the drills is for {}, {}{:g} mm in diameter and long enough for "
+        say("none of the drills is for {}, {}{:g} mm in diameter and long enough for "
             "{:g} mm{}",
-            s.p.material.name, h.drilled_mm > 0 ? "" : "at most ",
+            s.p.material.name, h.drilled_mm > 0 ? "" : tr("at most "),
             h.drilled_mm > 0 ? h.drilled_mm : h.least_mm - 2 * kLeftToBore_mm, h.depth_mm,
             h.rest_mm < kNoWall_mm && !std::isfinite(h.behind_mm)
                 ? ""
-                : ", with a point, and a reamer or tap behind it, that stay clear of "
-                  "what lies "
-                  "behind the hole"));
+                : tr(", with a point, and a reamer or tap behind it, that stay clear of "
+                     "what lies "
+                     "behind the hole")));
 }
 
 // Eq. (10).
@@ -347,7 +344,7 @@ void add_counterbore(Site& s, std::size_t index) {
   const double D = e.left_mm, front = front_mm(s.p, s.setup, s.work);
   const auto way = counterbore_way(s.p.drawing, index, front);
   const Asked a{FixedUse::counterboring,
-                "counterbore",
+                to_translate("counterbore"),
                 e.id,
                 false,
                 given_on(s, e.id, FixedUse::counterboring),
@@ -357,9 +354,9 @@ void add_counterbore(Site& s, std::size_t index) {
   const auto f = fitted(s.p, a);
   if (!f.tool)
     return refuse(s, a,
-                  fmt::format("no flat drill of the tools is for {}, {:g} mm in diameter "
-                              "and reaches {:g} mm deep",
-                              s.p.material.name, D, -way.to_mm));
+                  say("no flat drill of the tools is for {}, {:g} mm in diameter "
+                      "and reaches {:g} mm deep",
+                      s.p.material.name, D, -way.to_mm));
   if (asks_for_other_passes(s, a, e.cut->depth_mm)) return;
   const auto kc = cutting::kienzle_at(s.p.material, f.tool->gamma_deg);
   const double n_cap = n_cap_rpm(s);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "base/say.hpp"
 #include "cross_holes.hpp"
 #include "milled_choice.hpp"
 #include "milled_ways.hpp"
@@ -38,7 +39,7 @@ void refuse_milling(const MilledSite& s, const std::string& name, double value,
 std::string listed(const std::vector<std::string>& reasons) {
   return reasons.size() == 1
              ? reasons[0]
-             : fmt::format("no cutter does: {}; {} more", reasons[0], reasons.size() - 1);
+             : say("no cutter does: {}; {} more", reasons[0], reasons.size() - 1);
 }
 
 void add_once(std::vector<std::string>& all, std::string one) {
@@ -72,13 +73,12 @@ bool refused_outright(const MilledSite& s, const std::vector<MilledChoice>& choi
           units::spindle_rpm(c.grade->vc_m_min.upper, c.cutter->dc_mm)};
     });
     const bool slow = driven.n_max_rpm < own.lower;
-    refuse_milling(
-        s, "spindle speed", slow ? own.lower : own.upper,
-        slow ? driven.n_max_rpm : driven.n_min_rpm, "1/min",
-        fmt::format("cutters turn at {:.4g} to {:.4g} 1/min, the driven spindle at "
-                    "{:.4g} to {:.4g} 1/min: no speed is in common",
-                    own.lower, own.upper, driven.n_min_rpm, driven.n_max_rpm),
-        out);
+    refuse_milling(s, to_translate("spindle speed"), slow ? own.lower : own.upper,
+                   slow ? driven.n_max_rpm : driven.n_min_rpm, "1/min",
+                   say("cutters turn at {:.4g} to {:.4g} 1/min, the driven spindle at "
+                       "{:.4g} to {:.4g} 1/min: no speed is in common",
+                       own.lower, own.upper, driven.n_min_rpm, driven.n_max_rpm),
+                   out);
     return true;
   }
   const auto outside = [&](const char* name, const std::optional<double>& given,
@@ -86,12 +86,11 @@ bool refused_outright(const MilledSite& s, const std::vector<MilledChoice>& choi
     if (!given ||
         (*given >= r.lower * (1 - kRounding) && *given <= r.upper * (1 + kRounding)))
       return false;
-    refuse_milling(
-        s, name, *given, std::clamp(*given, r.lower, r.upper), unit,
-        fmt::format("{:g} {} is given, {:.4g} to {:.4g} {} is what cutter and spindle "
-                    "have",
-                    *given, unit, r.lower, r.upper, unit),
-        out);
+    refuse_milling(s, name, *given, std::clamp(*given, r.lower, r.upper), unit,
+                   say("{:g} {} is given, {:.4g} to {:.4g} {} is what cutter and spindle "
+                       "have",
+                       *given, unit, r.lower, r.upper, unit),
+                   out);
     return true;
   };
   const auto n =
@@ -100,8 +99,8 @@ bool refused_outright(const MilledSite& s, const std::vector<MilledChoice>& choi
     return catalogue::Range{c.grade->hex_mm.lower / c.hex_over_fz,
                             c.grade->hex_mm.upper / c.hex_over_fz};
   });
-  return outside("spindle speed", s.m.n_rpm, n, "1/min") ||
-         outside("feed per tooth", s.m.fz_mm, fz, "mm");
+  return outside(to_translate("spindle speed"), s.m.n_rpm, n, "1/min") ||
+         outside(to_translate("feed per tooth"), s.m.fz_mm, fz, "mm");
 }
 
 // Explains infeasibility by the way with the largest stable-to-required depth ratio, at
@@ -127,11 +126,11 @@ void explain(const MilledSite& s, const std::vector<MilledChoice>& choices,
   }
   if (nearest == cases.size()) {
     refuse_milling(
-        s, "feed", 0, 0, "",
-        fmt::format("power, torque, strength, grip and speeds of machine and cutters "
-                    "leave no feed above {}, {}",
-                    s.m.fz_mm ? "that given" : "the least chip thickness",
-                    s.m.passes ? "at the depth given" : "at any depth of pass"),
+        s, to_translate("feed"), 0, 0, "",
+        say("power, torque, strength, grip and speeds of machine and cutters "
+            "leave no feed above {}, {}",
+            s.m.fz_mm ? tr("that given") : tr("the least chip thickness"),
+            s.m.passes ? tr("at the depth given") : tr("at any depth of pass")),
         out);
     return;
   }
@@ -141,17 +140,18 @@ void explain(const MilledSite& s, const std::vector<MilledChoice>& choices,
   const double W = load_N_mm(k, feed_mm(k, at));
   most = stable_around_N_mm(k, at, W) / W;
   const std::string help =
-      most > 0 ? fmt::format("a tool point {:.3g} times as stiff would do", 1 / most)
-               : "the limits of stability cannot be told there";
+      most > 0 ? say("a tool point {:.3g} times as stiff would do", 1 / most)
+               : tr("the limits of stability cannot be told there");
   refuse_milling(
-      s, "stable depth with its margin", asked, asked * most, "mm",
-      fmt::format("it chatters at {}: {} of {:.4g} mm with {} come{} nearest, at {:.0f} "
-                  "1/min, where {:.4g} mm are stable but {:.4g} mm asked for with the "
-                  "margin; {}{}",
-                  s.m.n_rpm ? "the speed given" : "every speed",
-                  c.passes == 1 ? "1 pass" : fmt::format("{} passes", c.passes), ap,
-                  c.cutter->id, c.passes == 1 ? "s" : "", at, asked * most, asked, help,
-                  s.m.passes ? ", or more passes" : ""),
+      s, to_translate("stable depth with its margin"), asked, asked * most, "mm",
+      say("it chatters at {}: {}, at {:.0f} 1/min, where {:.4g} mm are stable but "
+          "{:.4g} mm asked for with the margin; {}{}",
+          s.m.n_rpm ? tr("the speed given") : tr("every speed"),
+          c.passes == 1
+              ? say("1 pass of {:.4g} mm with {} comes nearest", ap, c.cutter->id)
+              : say("{} passes of {:.4g} mm with {} come nearest", c.passes, ap,
+                    c.cutter->id),
+          at, asked * most, asked, help, s.m.passes ? tr(", or more passes") : ""),
       out);
 }
 
@@ -180,7 +180,7 @@ void choose(const MilledSite& s, const std::vector<MilledChoice>& choices,
       1 - share,
       best.steps,
       "branch-and-bound",
-      best.proved ? "" : "the search of speeds ended before every one was settled"};
+      best.proved ? "" : tr("the search of speeds ended before every one was settled")};
   o.order = milled_order(s.p, s.m, s.setup, o.plan.tool);
   out.after.push_back(std::move(o));
 }
@@ -195,7 +195,7 @@ void take(const MilledSite& s, const MilledChoice& c, AuxiliaryWork& out) {
                         0,
                         0,
                         "fixed",
-                        "conditions as given"};
+                        tr("conditions as given")};
   o.order = milled_order(s.p, s.m, s.setup, o.plan.tool);
   out.after.push_back(std::move(o));
 }
@@ -207,24 +207,24 @@ std::string stopped(const MilledSite& s, const MilledChoice& c, bool whole) {
   const bool closed = !c.out.left && !c.out.right;
   const double beside = depth_beside_mm(s.p, s.setup, s.m, D, c.out);
   if (s.m.kind == MilledKind::slot && closed)
-    return fmt::format("{} runs out at neither end in this setup", cutter.id);
+    return say("{} runs out at neither end in this setup", cutter.id);
   if (s.m.kind == MilledKind::flat && closed && D > s.m.length_mm + kSlack_mm)
-    return fmt::format("{} of {:g} mm does not go into {:g} mm between its walls",
-                       cutter.id, D, s.m.length_mm);
+    return say("{} of {:g} mm does not go into {:g} mm between its walls", cutter.id, D,
+               s.m.length_mm);
   if (cutter.lu_mm < beside - kSlack_mm)
-    return fmt::format(
+    return say(
         "{} reaches {:g} mm, its holder would meet what stands {:.4g} mm "
         "above the floor within {:g} mm",
         cutter.id, cutter.lu_mm, beside, kHolder_mm);
   if (c.rho > 1)
-    return fmt::format(
+    return say(
         "the part yields {:.3g} nm/N here, the tool point of {} {:.3g}: "
         "which of them chatters is then not told; clamp it stiffer",
         1e6 * s.part_mm_N, cutter.id, 1e6 * tip_mm_N(tip_modes(s.p, cutter)));
   if (!whole &&
       (ap > cutter.ap_mm.upper + kSlack_mm || ap < cutter.ap_mm.lower - kSlack_mm))
-    return fmt::format("{} cuts {:g} to {:g} mm deep, not {:.4g} mm", cutter.id,
-                       cutter.ap_mm.lower, cutter.ap_mm.upper, ap);
+    return say("{} cuts {:g} to {:g} mm deep, not {:.4g} mm", cutter.id,
+               cutter.ap_mm.lower, cutter.ap_mm.upper, ap);
   return {};
 }
 
@@ -232,7 +232,7 @@ void add(const PreparedPart& p, const MilledPlace& m, std::size_t setup,
          Clamping clamping, const Economy& economy, AuxiliaryWork& out) {
   MilledSite s{p, m, setup, clamping, economy, 0};
   if (const auto why = milled_obstacle(p, m, setup, clamping); !why.empty())
-    return refuse_milling(s, "setups", 0, 0, "", why, out);
+    return refuse_milling(s, to_translate("setups"), 0, 0, "", why, out);
   if (m.kind == MilledKind::cross_hole)
     return add_cross_hole(p, m, setup, clamping, economy, out);
   s.part_mm_N = part_mm_N(p, m, setup, clamping);
@@ -253,7 +253,8 @@ void add(const PreparedPart& p, const MilledPlace& m, std::size_t setup,
       choices.back().passes = passes;
     }
   }
-  if (choices.empty()) return refuse_milling(s, "cutter", 0, 0, "", listed(reasons), out);
+  if (choices.empty())
+    return refuse_milling(s, to_translate("cutter"), 0, 0, "", listed(reasons), out);
   if (whole) return take(s, choices.front(), out);
   if (!refused_outright(s, choices, out)) choose(s, choices, out);
 }

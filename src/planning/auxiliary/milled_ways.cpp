@@ -1,10 +1,9 @@
 #include "milled_ways.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
+#include "base/say.hpp"
 #include "milled_paths.hpp"
 #include "planning/clamping/made_surfaces.hpp"
 #include "planning/clamping/positions.hpp"
@@ -114,16 +113,15 @@ std::string milled_obstacle(const PreparedPart& p, const Milled& m, std::size_t 
   const auto& id = p.drawing.outer[m.element].id;
   const auto turned = setup_of(p, id);
   if (turned && *turned > setup)
-    return fmt::format("{} is turned in {} only", id, setup_label(*turned));
+    return say("{} is turned in {} only", id, setup_label(*turned));
   const double z0 = m.z_mm, z1 = m.z_mm + m.length_mm;
   if (jaws_cover(p, setup, clamping, z0, z1))
-    return fmt::format("the jaws hold the part up to z = {:g} mm",
-                       root_z_mm(p, setup, clamping));
+    return say("the jaws hold the part up to z = {:g} mm", root_z_mm(p, setup, clamping));
   const double steady = p.setups[setup].steady_z_mm;
   if (clamping == Clamping::chuck_steady &&
       steady + kSteadyWidth_mm / 2 > z0 + kSlack_mm &&
       steady - kSteadyWidth_mm / 2 < z1 - kSlack_mm)
-    return fmt::format("the steady rest stands at z = {:g} mm", steady);
+    return say("the steady rest stands at z = {:g} mm", steady);
   return {};
 }
 
@@ -159,31 +157,31 @@ std::string does_not_fit(const PreparedPart& p, const Milled& m,
                          const catalogue::MillingCutter& c) {
   const double D = c.dc_mm, w = m.width_mm;
   if (!c.conditions_in(p.material.group))
-    return fmt::format("has no conditions for {}", p.material.name);
+    return say("has no conditions for {}", p.material.name);
   const auto& modes = tip_modes(p, c);
   if (std::ranges::all_of(modes, &catalogue::TipMode::along_feed))
-    return "has no mode across the feed (axis y) at its tool point, where the part "
-           "yields with it";
+    return tr(
+        "has no mode across the feed (axis y) at its tool point, where the part "
+        "yields with it");
   if (c.lu_mm < m.depth_mm - kSlack_mm)
-    return fmt::format("reaches {:g} mm deep, not {:g} mm", c.lu_mm, m.depth_mm);
+    return say("reaches {:g} mm deep, not {:g} mm", c.lu_mm, m.depth_mm);
   if (c.re_mm > m.corner_mm.value_or(INFINITY) + kSlack_mm)
-    return fmt::format("has a corner of {:.12g} mm where {:.12g} mm is allowed", c.re_mm,
-                       *m.corner_mm);
+    return say("has a corner of {:.12g} mm where {:.12g} mm is allowed", c.re_mm,
+               *m.corner_mm);
   if (c.ap_mm.lower > m.depth_mm + kSlack_mm)
-    return fmt::format("takes {:g} mm at least, which is deeper than {:g} mm",
-                       c.ap_mm.lower, m.depth_mm);
+    return say("takes {:g} mm at least, which is deeper than {:g} mm", c.ap_mm.lower,
+               m.depth_mm);
   if (m.kind == MilledKind::flat)
     return m.lanes && w / *m.lanes > D + kSlack_mm
-               ? fmt::format("is {:g} mm wide, a lane {:.4g} mm", D, w / *m.lanes)
+               ? say("is {:g} mm wide, a lane {:.4g} mm", D, w / *m.lanes)
                : "";
-  if (D > w + kSlack_mm) return fmt::format("is {:g} mm wide, the place {:g} mm", D, w);
+  if (D > w + kSlack_mm) return say("is {:g} mm wide, the place {:g} mm", D, w);
   if (2 * D < w - kSlack_mm)
-    return fmt::format("of {:g} mm is less than half as wide as the place, {:g} mm", D,
-                       w);
+    return say("of {:g} mm is less than half as wide as the place, {:g} mm", D, w);
   if (m.kind == MilledKind::slot) return {};
   if (D > m.length_mm - kSlack_mm)
-    return fmt::format("of {:g} mm does not go into {:g} mm of length", D, m.length_mm);
-  return c.centre_cutting ? "" : "does not cut over its centre, so it cannot plunge";
+    return say("of {:g} mm does not go into {:g} mm of length", D, m.length_mm);
+  return c.centre_cutting ? "" : tr("does not cut over its centre, so it cannot plunge");
 }
 
 std::vector<MilledWay> milled_ways(const PreparedPart& p, const Milled& m) {

@@ -138,7 +138,7 @@ double sees_rechucking(const PreparedPart& p, const Tolerance& t, std::size_t he
 }
 
 tolerance::Source rechucking(double um, double sensitivity) {
-  return {"rechucking", Distribution::rayleigh, um, sensitivity};
+  return {to_translate("rechucking"), Distribution::rayleigh, um, sensitivity};
 }
 
 // An eccentricity of the part as a setup holds it anew, with what `sees` makes of it in a
@@ -280,22 +280,23 @@ ToleranceAllocation tolerance_allocation(const PreparedPart& p, std::size_t tole
     if (um > 0) a.spread.push_back({source, d, um, s});
   };
   spread(kMachine, Distribution::normal, machine.u_um / a.ends, 1);
-  fixed("jaw-squeeze",
+  fixed(to_translate("jaw-squeeze"),
         squeeze_um(p, t, making.setup, making.clamping,
                    jaw_force_N(p, making.setup, making.clamping, Stage::finishing)));
   fixed(kMeasurement, (size ? 2 : 1) * shop.measurement_U_um);
   if (t.kind == ToleranceKind::length)
-    fixed("chain", 2 * units::um_from_mm(std::abs(off_middle_mm(p.drawing, t))));
+    fixed(to_translate("chain"),
+          2 * units::um_from_mm(std::abs(off_middle_mm(p.drawing, t))));
   if (size) {
     const double s = sensitivity(p, t);
     const auto both = together(p, t, making.setup);
     const double drift =
         t.kind == ToleranceKind::length ? shop.drift_axial_um : shop.drift_um;
-    if (!both.setup) spread("drift", Distribution::uniform, drift, s);
-    spread("repeatability", Distribution::normal, shop.repeatability_um, s);
+    if (!both.setup) spread(to_translate("drift"), Distribution::uniform, drift, s);
+    spread(to_translate("repeatability"), Distribution::normal, shop.repeatability_um, s);
     if (making.last && !both.tool) {
       const double wear = wear_um(p, *making.last);
-      spread("wear", Distribution::uniform, wear, s);
+      spread(to_translate("wear"), Distribution::uniform, wear, s);
       spread(kLife, Distribution::normal, wear * life_spread(p), s);
     }
     spread(kHeat, Distribution::uniform, heat_um(p, t), s);

@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "turnwright/base/language.hpp"
 #include "turnwright/planning/plan_request.hpp"
 #include "turnwright/planning/prepared_part.hpp"
 #include "turnwright/planning/process_plan.hpp"
@@ -16,10 +17,10 @@ struct Making {
   const catalogue::Tool* last = nullptr;  ///< the tool of its last pass
 };
 
-inline constexpr const char* kMachine = "machine";  ///< sources, below
-inline constexpr const char* kHeat = "heat";
-inline constexpr const char* kLife = "life";
-inline constexpr const char* kMeasurement = "measurement";
+inline constexpr const char* kMachine = to_translate("machine");  ///< sources, below
+inline constexpr const char* kHeat = to_translate("heat");
+inline constexpr const char* kLife = to_translate("life");
+inline constexpr const char* kMeasurement = to_translate("measurement");
 
 /// Contributions of the sources.  They move a size (diameter, length, a profile located
 /// by datums) up and down, and widen a zone:

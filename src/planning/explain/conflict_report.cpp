@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <optional>
 
+#include "base/say.hpp"
 #include "least_relaxation.hpp"
 #include "planning/setup/infeasibility_reason.hpp"
 #include "planning/values/readable.hpp"
+#include "turnwright/planning/limit_words.hpp"
 #include "turnwright/planning/prepare.hpp"
 
 namespace turnwright::planning {
@@ -30,11 +32,11 @@ const JawForces* jaws_of(const PreparedPart& p, const Attempt& a,
 // "setup 1, chuck or chuck-tailstock, d2"
 std::string where(const PreparedPart& p, const Attempt& a, const std::string& surface) {
   const auto* f = feature_of(a, surface);
-  if (!f) return surface.empty() ? "the part" : surface;
+  if (!f) return surface.empty() ? tr("the part") : surface;
   const auto setup = f->task.making.setup;
   std::string clampings;
   for (const Clamping c : p.setups[setup].clampings)
-    clampings += (clampings.empty() ? "" : " or ") + std::string(name(c));
+    clampings = clampings.empty() ? tr(name(c)) : say("{} or {}", clampings, tr(name(c)));
   return fmt::format("{}, {}, {}", setup_label(setup), clampings, surface);
 }
 
@@ -54,8 +56,9 @@ std::string joined_names(const PreparedPart& p, const Feasibility& oracle,
   for (const std::size_t i : set) {
     if (i == but) continue;
     const auto& l = oracle.limits()[i];
-    out += (out.empty() ? "" : " and ") + value_of(p, l).name;
-    if (!l.surface.empty()) out += " of " + l.surface;
+    const auto name = value_of(p, l).name;
+    const auto one = limit_words(l.surface.empty() ? name : name + " of " + l.surface);
+    out = out.empty() ? one : say("{} and {}", out, one);
   }
   return out;
 }
@@ -209,47 +212,51 @@ class Explanation {
 
   std::string sentence(const Conflict& c, std::size_t k, std::size_t limit) const {
     const auto others = joined_names(p_, oracle_, sets_[k], limit);
+    const auto name = limit_words(c.limit);
     if (oracle_.limits()[limit].row->given())
-      return fmt::format("{}: {}, given as {}{}{}, leaves no way to keep {}", c.where,
-                         c.limit, readable(c.allowed), c.unit.empty() ? "" : " ", c.unit,
-                         others.empty() ? "what the tools can cut" : others);
+      return say("{}: {}, given as {}{}{}, leaves no way to keep {}", c.where, name,
+                 readable(c.allowed), c.unit.empty() ? "" : " ", c.unit,
+                 others.empty() ? tr("what the tools can cut") : others);
     const auto [value, allowed] = readable_apart(c.value, c.allowed);
+    const auto kept = others.empty() ? "" : say(" that keep {}", others);
     if (oracle_.limits()[limit].row->check == Check::chatter)
-      return fmt::format(
+      return say(
           "{}: {} would come to {} times what is stable at best, with any clamping, "
           "tools and conditions allowed{}",
-          c.where, c.limit, value, others.empty() ? "" : " that keep " + others);
-    return fmt::format(
+          c.where, name, value, kept);
+    return say(
         "{}: {} would come to {} {} at best, with any clamping, tools and conditions "
         "allowed{}; its limit is {} {}",
-        c.where, c.limit, value, c.unit, others.empty() ? "" : " that keep " + others,
-        allowed, c.unit);
+        c.where, name, value, c.unit, kept, allowed, c.unit);
   }
 
   Relaxation relaxation(const RelaxableLimit& l, const LimitValue& n,
                         const std::string& surface, double needed, std::size_t k) const {
     Relaxation r{n.name, n.now, needed, n.unit, {}, k + 1};
     if (l.row->is_width || !l.surface.empty()) r.limit += " of " + surface;
+    const auto name = limit_words(r.limit);
     if (l.row->given()) {
-      r.sentence = r.limit + " would have to be left to the planner";
+      r.sentence = say("{} would have to be left to the planner", name);
       return r;
     }
     const auto [from, to] = readable_apart(r.now, needed);
     if (l.row->check == Check::chatter) {
-      r.sentence = fmt::format(
-          "to keep {}, stiffness or damping would have to be {} times as large", r.limit,
-          to);
+      r.sentence =
+          say("to keep {}, stiffness or damping would have to be {} times as large", name,
+              to);
       return r;
     }
-    r.sentence = fmt::format("{} would have to {} from {} to {} {}", r.limit,
-                             l.row->is_width ? "open" : "go", from, to, n.unit);
+    r.sentence =
+        l.row->is_width
+            ? say("{} would have to open from {} to {} {}", name, from, to, n.unit)
+            : say("{} would have to go from {} to {} {}", name, from, to, n.unit);
     if (l.row->is_width && p_.drawing.tolerances[l.owner].limits)
-      r.sentence += " about the middle of its limits";
+      r.sentence += tr(" about the middle of its limits");
     if (const auto* jaws = jaws_of(p_, a_, surface);
         jaws && jaws->spares_tube && l.row->check == Check::grip)
       r.sentence +=
-          ", which strains the hollow part to more than two thirds of its yield "
-          "strength";
+          tr(", which strains the hollow part to more than two thirds of its yield "
+             "strength");
     return r;
   }
 

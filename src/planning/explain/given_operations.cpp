@@ -1,11 +1,10 @@
 #include "given_operations.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <string>
 #include <vector>
 
+#include "base/say.hpp"
 #include "planning/auxiliary/catalogue_operations.hpp"
 #include "planning/clamping/made_surfaces.hpp"
 
@@ -61,14 +60,14 @@ bool cuts(const PreparedPart& p, const OperationRequest& o, const FixedWork& fix
 std::string why_not(const PreparedPart& p, const OperationRequest& o,
                     const std::string& surface, const FixedWork& fixed) {
   const auto setup = setup_of(p, surface);
-  if (!setup) return "no setup cuts that by itself";
-  if (*setup != o.setup) return "that is made in " + setup_label(*setup);
+  if (!setup) return tr("no setup cuts that by itself");
+  if (*setup != o.setup) return say("that is made in {}", setup_label(*setup));
   std::string others;
   for (const auto& made : fixed.operations)
     if (works_on(p.drawing, made, surface) && others.find(made.id) == std::string::npos)
       others += (others.empty() ? "" : ", ") + made.id;
-  return others.empty() ? "nothing of this kind is left to do there"
-                        : "that is made by " + others;
+  return others.empty() ? tr("nothing of this kind is left to do there")
+                        : say("that is made by {}", others);
 }
 
 }  // namespace
@@ -84,9 +83,9 @@ void add_left_out(const PreparedPart& p, ProcessPlan& result) {
     });
     const auto& named = surface == o.on.end() ? o.on.front() : *surface;
     result.conflicts.push_back(
-        {"operations", setup_label(o.setup) + ", " + o.id, 0, 0, "",
-         fmt::format("{} does not cut {} in {}: {}", o.id, named, setup_label(o.setup),
-                     why_not(p, o, named, in_setup))});
+        {to_translate("operations"), setup_label(o.setup) + ", " + o.id, 0, 0, "",
+         say("{} does not cut {} in {}: {}", o.id, named, setup_label(o.setup),
+             why_not(p, o, named, in_setup))});
   }
 }
 

@@ -1,11 +1,10 @@
 #include "prices.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
 
+#include "base/say.hpp"
 #include "binding_limits.hpp"
 #include "planning/values/readable.hpp"
 #include "sensitivity.hpp"
@@ -78,11 +77,10 @@ double slope(const PreparedPart& p, const std::vector<SolvedSetup>& setups,
 Price price(const PreparedPart& p, const Limit& l, double gain,
             std::vector<std::string> binds_in) {
   const double then = l.at_most ? l.now * 1.1 : l.now / 1.1;
-  const auto sentence = fmt::format(
+  const auto sentence = say(
       "{} from {} to {}{}{} saves {:.4f}{} per part{}", l.called, readable(l.now),
       readable(then), l.unit.empty() ? "" : " ", l.unit, gain, unit_of_objective(p),
-      p.batch ? fmt::format(", {} per batch of {}", readable(gain * *p.batch),
-                            readable(*p.batch))
+      p.batch ? say(", {} per batch of {}", readable(gain * *p.batch), readable(*p.batch))
               : "");
   std::optional<double> batch;
   if (p.batch) batch = gain * *p.batch;

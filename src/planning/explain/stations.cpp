@@ -1,7 +1,6 @@
 #include "stations.hpp"
 
-#include <fmt/format.h>
-
+#include "base/say.hpp"
 #include "feasibility.hpp"
 #include "planning/setup/setup_planner.hpp"
 #include "turnwright/planning/prepare.hpp"
@@ -31,7 +30,7 @@ void add_stations_needed(const PreparedPart& p, ProcessPlan& result) {
   if (const auto needed = stations_needed(p))
     result.relax.push_back(
         {kStations, static_cast<double>(has), static_cast<double>(*needed), "",
-         fmt::format("{} would have to go from {} to {}", kStations, has, *needed)});
+         say("{} would have to go from {} to {}", tr(kStations), has, *needed)});
 }
 
 void add_lack_of_stations(const PreparedPart& p, ProcessPlan& result) {
@@ -41,10 +40,14 @@ void add_lack_of_stations(const PreparedPart& p, ProcessPlan& result) {
   const int has = p.machine.stations;
   const double needed = result.relax.back().needed;
   result.conflicts.push_back(
-      {kStations, "all setups", needed, static_cast<double>(has), "",
-       fmt::format("the turret of {} has {} station{}, and no tools for which they "
-                   "suffice make every surface; {:g} would do",
-                   p.machine.name, has, has == 1 ? "" : "s", needed)});
+      {kStations, tr("all setups"), needed, static_cast<double>(has), "",
+       has == 1
+           ? say("the turret of {} has {} station, and no tools for which they suffice "
+                 "make every surface; {:g} would do",
+                 p.machine.name, has, needed)
+           : say("the turret of {} has {} stations, and no tools for which they "
+                 "suffice make every surface; {:g} would do",
+                 p.machine.name, has, needed)});
 }
 
 }  // namespace turnwright::planning

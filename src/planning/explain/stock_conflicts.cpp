@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 
+#include "base/say.hpp"
 #include "planning/auxiliary/catalogue_operations.hpp"
 #include "planning/budget/machine_share.hpp"
 #include "planning/budget/tolerance_allocation.hpp"
@@ -16,6 +17,7 @@
 #include "planning/setup/setup_planner.hpp"
 #include "planning/values/readable.hpp"
 #include "stations.hpp"
+#include "turnwright/planning/limit_words.hpp"
 
 namespace turnwright::planning {
 namespace {
@@ -35,7 +37,8 @@ std::vector<Conflict> conflicts_in(const PreparedPart& p, std::size_t setup, Cla
 
 void add_unreachable(const PreparedPart& p, ProcessPlan& result) {
   for (const auto& sentence : p.work.unreachable)
-    result.conflicts.push_back({"setups", "all setups", 0, 0, "", sentence});
+    result.conflicts.push_back(
+        {to_translate("setups"), tr("all setups"), 0, 0, "", sentence});
 }
 
 void add_used_up(const PreparedPart& p, const std::vector<std::size_t>& tolerances,
@@ -50,14 +53,13 @@ void add_used_up(const PreparedPart& p, const std::vector<std::size_t>& toleranc
     const auto of = t.of.empty() ? t.between[0] + " .. " + t.between[1] : t.of;
     result.conflicts.push_back(
         {called, of, share_mm, width, "mm",
-         fmt::format("{} of {}: the machine's share of {} mm leaves nothing of {} mm",
-                     called, of, taken, whole)});
+         say("{} of {}: the machine's share of {} mm leaves nothing of {} mm",
+             limit_words(called), of, taken, whole)});
     result.relax.push_back(
         {called + " of " + of, width, share_mm * kBeyond, "mm",
-         fmt::format(
-             "{} must be wider than the machine's share, {} mm, or that share must be "
+         say("{} must be wider than the machine's share, {} mm, or that share must be "
              "reduced",
-             called, readable(share_mm))});
+             limit_words(called), readable(share_mm))});
   }
 }
 
@@ -80,7 +82,7 @@ void add_auxiliary_conflicts(const PreparedPart& p, ProcessPlan& result) {
       if (count == 0) continue;  // told
       times[one.sentence] = 0;
       if (count < clampings.size())
-        one.sentence = fmt::format("{}: {}", name(c), one.sentence);
+        one.sentence = fmt::format("{}: {}", tr(name(c)), one.sentence);
       result.conflicts.push_back(std::move(one));
     }
   }

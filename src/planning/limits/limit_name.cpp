@@ -25,7 +25,7 @@ std::string limit_name(const PlanRequest& p, const LimitRow& row,
       return name;
     case Owner::jaws:
     case Owner::finishing_jaws:
-      return name + " in " + setup_label(owner);
+      return name + " in setup " + std::to_string(owner + 1);
     case Owner::tool:
       return of(name, p.tools[owner].id);
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "planning/budget/tolerance_allocation.hpp"
+#include "turnwright/base/language.hpp"
 
 namespace turnwright::planning {
 namespace {
@@ -79,7 +80,7 @@ LimitRow roughness(const char* name) {
 }
 
 LimitRow tolerance() {
-  return {.name = "tolerance",
+  return {.name = to_translate("tolerance"),
           .unit = "mm",
           .relaxing = Relaxing::rows,
           .numbers = {{Owner::tolerance,
@@ -175,7 +176,7 @@ double largest_power_kW(const Lathe& m) {
 }
 
 LimitRow power() {
-  return {.name = "power",
+  return {.name = to_translate("power"),
           .unit = "kW",
           .relaxing = Relaxing::rows,
           .numbers = {{Owner::machine,
@@ -228,7 +229,7 @@ void add_faster_point(PlanRequest& p, std::size_t, const Scaling& s) {
 }
 
 LimitRow largest_spindle_speed() {
-  return {.name = "largest spindle speed",
+  return {.name = to_translate("largest spindle speed"),
           .unit = "1/min",
           .relaxing = Relaxing::model,
           .numbers = {{Owner::machine,
@@ -242,7 +243,7 @@ LimitRow largest_spindle_speed() {
                             auto& n = p.machine.chuck.n_max_rpm;
                             return n < end_rpm(p.machine) ? &n : nullptr;
                           },
-                          "largest speed of the chuck")},
+                          to_translate("largest speed of the chuck"))},
           .with = Check::grip,  // at speed the jaws let go
           .relaxed_by = LimitNumber{Owner::machine,
                                     [](const PreparedPart& p, std::size_t) {
@@ -261,19 +262,19 @@ LimitRow grip() {
     if (!finishes_with_another_force(p, s)) return {};
     return p.jaws[s].finishing_N;
   };
-  return {.name = "grip of the chuck",
+  return {.name = to_translate("grip of the chuck"),
           .unit = "N",
           .relaxing = Relaxing::model,
           .numbers = {{Owner::jaws, rough_N,
                        [](PlanRequest& p, std::size_t i, const Scaling& s) {
                          p.setups[i].grip_force_N = s.factor * s.now;
                        },
-                       "grip force"},
+                       to_translate("grip force")},
                       {Owner::finishing_jaws, finish_N,
                        [](PlanRequest& p, std::size_t i, const Scaling& s) {
                          p.setups[i].finishing_grip_force_N = s.factor * s.now;
                        },
-                       "finishing grip force"}},
+                       to_translate("finishing grip force")}},
           // Relaxed by more friction and lighter jaws, because more force would deform
           // tubes.
           .relaxed_by = LimitNumber{Owner::chuck,
@@ -287,8 +288,8 @@ LimitRow grip() {
 }
 
 LimitRow chatter() {
-  constexpr const char* kDamping = "damping ratio";
-  return {.name = "chatter stiffness",
+  constexpr const char* kDamping = to_translate("damping ratio");
+  return {.name = to_translate("chatter stiffness"),
           .unit = "N/mm",
           .relaxing = Relaxing::rows,
           .numbers = {number(
@@ -298,7 +299,7 @@ LimitRow chatter() {
                       number(
                           Owner::machine,
                           [](auto& p, std::size_t) { return &p.machine_damping_ratio; },
-                          "damping ratio of chuck and toolpost", ""),
+                          to_translate("damping ratio of chuck and toolpost"), ""),
                       number(
                           Owner::tool,
                           [](auto& p, std::size_t i) {
@@ -318,49 +319,50 @@ LimitRow no_limit(const char* name, const char* unit, Side side, const char* rea
   return {.name = name, .unit = unit, .side = side, .reason = reason};
 }
 
-constexpr const char* kOfChipBreaker =
+constexpr const char* kOfChipBreaker = to_translate(
     "the insert's maker draws the chip breaker's window as a curve over depth and feed: "
-    "it has no number of its own, and another window is another tool";
-constexpr const char* kOfMilledPlaces =
+    "it has no number of its own, and another window is another tool");
+constexpr const char* kOfMilledPlaces = to_translate(
     "milled places are chosen apart from the turned surfaces, by a search that explains "
-    "itself";
+    "itself");
 
 // A switch, so that a check without a row does not compile.
 LimitRow row_of(Check check) {
   switch (check) {
     case Check::depth_min:
-      return least_of_window<&Conditions::ap_mm, &Tool::ap_mm>("least depth of cut",
-                                                               "mm");
+      return least_of_window<&Conditions::ap_mm, &Tool::ap_mm>(
+          to_translate("least depth of cut"), "mm");
     case Check::depth_max:
-      return largest_of_window<&Conditions::ap_mm, &Tool::ap_mm>("largest depth of cut",
-                                                                 "mm");
+      return largest_of_window<&Conditions::ap_mm, &Tool::ap_mm>(
+          to_translate("largest depth of cut"), "mm");
     case Check::feed_min:
-      return least_of_window<&Conditions::f_mm_rev, &Tool::f_mm_rev>("least feed",
-                                                                     "mm/rev");
+      return least_of_window<&Conditions::f_mm_rev, &Tool::f_mm_rev>(
+          to_translate("least feed"), "mm/rev");
     case Check::feed_max:
-      return largest_of_window<&Conditions::f_mm_rev, &Tool::f_mm_rev>("largest feed",
-                                                                       "mm/rev");
+      return largest_of_window<&Conditions::f_mm_rev, &Tool::f_mm_rev>(
+          to_translate("largest feed"), "mm/rev");
     case Check::vc_min:
       return least_of_window<&Conditions::vc_m_min, &Tool::vc_m_min>(
-          "least cutting speed", "m/min");
+          to_translate("least cutting speed"), "m/min");
     case Check::vc_max:
       return largest_of_window<&Conditions::vc_m_min, &Tool::vc_m_min>(
-          "largest cutting speed", "m/min");
+          to_translate("largest cutting speed"), "m/min");
     case Check::tolerance:
       return tolerance();
     case Check::Ra:
-      return roughness<OfRa>("roughness Ra");
+      return roughness<OfRa>(to_translate("roughness Ra"));
     case Check::Rz:
-      return roughness<OfRz>("roughness Rz");
+      return roughness<OfRz>(to_translate("roughness Rz"));
     case Check::power:
       return power();
     case Check::torque:
-      return {.name = "torque",
+      return {.name = to_translate("torque"),
               .unit = "Nm",
               .with = Check::power,
-              .reason = "power and torque are one motor's curve: the power is relaxed"};
+              .reason = to_translate(
+                  "power and torque are one motor's curve: the power is relaxed")};
     case Check::feed_force:
-      return {.name = "feed force",
+      return {.name = to_translate("feed force"),
               .unit = "N",
               .relaxing = Relaxing::rows,
               .numbers = {of_machine<&Lathe::feed_force_max_N>()}};
@@ -369,55 +371,62 @@ LimitRow row_of(Check check) {
     case Check::spindle_max:
       return largest_spindle_speed();
     case Check::spindle_min:
-      return {.name = "least spindle speed",
+      return {.name = to_translate("least spindle speed"),
               .unit = "1/min",
               .side = Side::at_least,
               .relaxing = Relaxing::model,
               .numbers = {of_machine<&Lathe::n_min_rpm>()}};
     case Check::force:
-      return {.name = "cutting force",
+      return {.name = to_translate("cutting force"),
               .unit = "N",
               .relaxing = Relaxing::rows,
               .numbers = {of_tool<&Tool::Fc_max_N>()}};
     case Check::life_min:
-      return {.name = "least tool life",
+      return {.name = to_translate("least tool life"),
               .unit = "min",
               .side = Side::at_least,
               .relaxing = Relaxing::rows,
               .numbers = {of_tool<&Tool::T_min, &Range::lower>()}};
     case Check::life_max:
-      return {.name = "longest tool life",
+      return {.name = to_translate("longest tool life"),
               .unit = "min",
               .relaxing = Relaxing::rows,
               .numbers = {of_tool<&Tool::T_min, &Range::upper>()}};
     case Check::chatter:
       return chatter();
     case Check::chip_min:
-      return no_limit("least feed of the chip breaker", "mm/rev", Side::at_least,
-                      kOfChipBreaker);
+      return no_limit(to_translate("least feed of the chip breaker"), "mm/rev",
+                      Side::at_least, kOfChipBreaker);
     case Check::chip_max:
-      return no_limit("largest feed of the chip breaker", "mm/rev", Side::at_most,
-                      kOfChipBreaker);
+      return no_limit(to_translate("largest feed of the chip breaker"), "mm/rev",
+                      Side::at_most, kOfChipBreaker);
     case Check::speed_window:
-      return no_limit("cutting speed", "m/min", Side::at_least,
-                      "no limit by itself: whether the others leave any cutting speed");
+      return no_limit(
+          to_translate("cutting speed"), "m/min", Side::at_least,
+          to_translate("no limit by itself: whether the others leave any cutting speed"));
     case Check::stable_depth:
-      return no_limit("stable depth with its margin", "mm", Side::at_most,
+      return no_limit(to_translate("stable depth with its margin"), "mm", Side::at_most,
                       kOfMilledPlaces);
     case Check::part_compliance:
-      return no_limit("compliance of the part", "nm/N", Side::at_most, kOfMilledPlaces);
+      return no_limit(to_translate("compliance of the part"), "nm/N", Side::at_most,
+                      kOfMilledPlaces);
     case Check::milled_depth_max:
-      return no_limit("depth of cut", "mm", Side::at_most, kOfMilledPlaces);
+      return no_limit(to_translate("depth of cut"), "mm", Side::at_most, kOfMilledPlaces);
     case Check::chip_thickness_max:
-      return no_limit("chip thickness", "mm", Side::at_most, kOfMilledPlaces);
+      return no_limit(to_translate("chip thickness"), "mm", Side::at_most,
+                      kOfMilledPlaces);
     case Check::chip_thickness_min:
-      return no_limit("least chip thickness", "mm", Side::at_least, kOfMilledPlaces);
+      return no_limit(to_translate("least chip thickness"), "mm", Side::at_least,
+                      kOfMilledPlaces);
     case Check::milled_vc_max:
-      return no_limit("cutting speed", "m/min", Side::at_most, kOfMilledPlaces);
+      return no_limit(to_translate("cutting speed"), "m/min", Side::at_most,
+                      kOfMilledPlaces);
     case Check::milled_n_max:
-      return no_limit("spindle speed", "1/min", Side::at_most, kOfMilledPlaces);
+      return no_limit(to_translate("spindle speed"), "1/min", Side::at_most,
+                      kOfMilledPlaces);
     case Check::milled_feed_max:
-      return no_limit("feed speed", "mm/min", Side::at_most, kOfMilledPlaces);
+      return no_limit(to_translate("feed speed"), "mm/min", Side::at_most,
+                      kOfMilledPlaces);
   }
   return {};
 }

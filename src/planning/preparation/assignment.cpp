@@ -1,12 +1,11 @@
 #include "assignment.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <optional>
 
+#include "base/say.hpp"
 #include "edge_assignment.hpp"
 #include "planning/clamping/made_surfaces.hpp"
 #include "planning/clamping/positions.hpp"
@@ -122,12 +121,11 @@ std::optional<std::size_t> place(const PreparedPart& p, const std::string& surfa
     asked = true;
     if (can(s)) return s;
   }
-  if (!asked)
-    a.unreachable.push_back(surface + " has no operation: it would stay as the stock is");
-  else
-    a.unreachable.push_back(
-        surface + " cannot be cut in " +
-        (p.operations ? "the setup of its operations: " : "any setup: ") + why);
+  a.unreachable.push_back(
+      !asked ? say("{} has no operation: it would stay as the stock is", surface)
+      : p.operations
+          ? say("{} cannot be cut in the setup of its operations: {}", surface, why)
+          : say("{} cannot be cut in any setup: {}", surface, why));
   return {};
 }
 
@@ -136,17 +134,17 @@ std::string why_not(const PreparedPart& p, std::size_t i) {
   for (std::size_t s = 0; s < p.setups.size(); ++s) {
     if (!wanted_in(p, s, p.drawing.outer[i].id) || !reachable(p, s, i)) continue;
     if (!cleared(p, s, i))
-      return fmt::format(
+      return say(
           "towards the chuck it falls by more than the {:.4g} deg that profiling tools "
           "are taken to clear",
           units::deg_from_rad(part::kProfilingClears_rad));
     const auto room = before_jaws(p, s, i);
     const auto [left, needed] = readable_apart(room.left_mm, room.needed_mm);
-    return fmt::format(
+    return say(
         "in {} it ends {} mm before the jaws, its tool's corner needs {} mm: grip less",
         setup_label(s), left, needed);
   }
-  return "it lies in the jaws, or behind a larger diameter";
+  return tr("it lies in the jaws, or behind a larger diameter");
 }
 
 void assign_faces(const PreparedPart& p, Assignment& a) {
@@ -159,7 +157,7 @@ void assign_faces(const PreparedPart& p, Assignment& a) {
     for (std::size_t s = 0; s < p.setups.size(); ++s)
       open = open || (free(s) && wanted_in(p, s, id));
     if (!open) continue;
-    if (const auto s = place(p, id, "its end is held", free, a))
+    if (const auto s = place(p, id, tr("its end is held"), free, a))
       a.setups[*s].end_face = true;
   }
   for (std::size_t k = 1; k < d.outer.size(); ++k) {
@@ -170,8 +168,8 @@ void assign_faces(const PreparedPart& p, Assignment& a) {
     const std::size_t smaller = before.right_mm > after.left_mm ? k : k - 1;
     const auto s = place(
         p, id,
-        "it is faced in the setup that turns the smaller element beside it, and none "
-        "does",
+        tr("it is faced in the setup that turns the smaller element beside it, and none "
+           "does"),
         [&](std::size_t i) {
           const auto& e = a.setups[i].elements;
           return std::find(e.begin(), e.end(), smaller) != e.end();
@@ -183,7 +181,7 @@ void assign_faces(const PreparedPart& p, Assignment& a) {
     if (!part::has_tolerance(d, shoulder.id)) continue;
     const auto s = place(
         p, shoulder.id,
-        "it is faced in the setup that bores the wider bore, and none does",
+        tr("it is faced in the setup that bores the wider bore, and none does"),
         [&](std::size_t i) {
           return makes(a.setups[i], {true, shoulder.wider});
         },
@@ -219,9 +217,9 @@ void assign_centres(const PreparedPart& p, Assignment& a) {
   for (const End end : {End::left, End::right}) {
     const auto frees = [&](const SetupRequest& s) { return s.hold != end; };
     if (part::centre_at(p.drawing, end) && std::ranges::none_of(p.setups, frees))
-      a.unreachable.push_back(fmt::format(
-          "the centre hole at {} cannot be drilled in any setup: its end is held",
-          end == End::left ? "left" : "right"));
+      a.unreachable.push_back(
+          say("the centre hole at {} cannot be drilled in any setup: its end is held",
+              end == End::left ? "left" : "right"));
   }
 }
 
@@ -275,7 +273,7 @@ Assignment assign(const PreparedPart& p) {
   const auto& inner = p.drawing.inner;
   for (std::size_t i = 0; i < inner.size(); ++i)
     if (const auto s = place(
-            p, inner[i].id, "its end is held, or it lies behind a narrower bore",
+            p, inner[i].id, tr("its end is held, or it lies behind a narrower bore"),
             [&](std::size_t k) { return bore_reachable(p, k, i); }, a))
       a.setups[*s].bores.push_back(i);
   for (std::size_t s = 0; s < p.setups.size(); ++s)

@@ -1,11 +1,10 @@
 #include "edge_assignment.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "base/say.hpp"
 #include "planning/clamping/positions.hpp"
 #include "planning/paths/approach.hpp"
 #include "planning/paths/edges.hpp"
@@ -109,13 +108,14 @@ void assign(const PreparedPart& p, const List& elements, bool inner,
       if (const auto s = alone_in(p, setups, {inner, i}, end))
         (inner ? setups[*s].inner_chamfers : setups[*s].outer_chamfers).push_back(i);
       else
-        not_cut.push_back(
-            std::string(chamfer->round ? "the rounded edge" : "the chamfer") +
-            " at the " + std::string(end == End::left ? "left" : "right") + " end of " +
-            e.id + " cannot be cut in any setup: none makes " + e.id +
-            " or the surface before that end, with the end free, enough "
-            "wall for the tool "
-            "and room before the jaws");
+        not_cut.push_back(say(
+            "{} at {} cannot be cut in any setup: none makes {} or the surface before "
+            "that end, with the end free, enough wall for the tool and room before the "
+            "jaws",
+            chamfer->round ? tr("the rounded edge") : tr("the chamfer"),
+            end == End::left ? say("the left end of {}", e.id)
+                             : say("the right end of {}", e.id),
+            e.id));
     }
 }
 
@@ -154,10 +154,10 @@ std::vector<std::string> undercuts_not_cut(const PreparedPart& p,
       for (std::size_t s = 0; s < setups.size(); ++s)
         cut = cut || (makes(setups[s], {false, i}) && free_end(p, s) != end);
       if (!cut)
-        all.push_back(fmt::format(
-            "the undercut of {} before {} cannot be cut: no setup turns {} "
-            "towards that shoulder",
-            e.id, shoulder_id(p.drawing, end == End::left ? i : i + 1), e.id));
+        all.push_back(
+            say("the undercut of {} before {} cannot be cut: no setup turns {} "
+                "towards that shoulder",
+                e.id, shoulder_id(p.drawing, end == End::left ? i : i + 1), e.id));
     }
   return all;
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/say.hpp"
 #include "planning/values/readable.hpp"
 
 namespace turnwright::planning {
@@ -90,15 +91,14 @@ void prefer_proven(PlanRequest& r) {
 }
 
 std::string range_words(const Range& r) {
-  return fmt::format("{} to {} m/min", readable(r.lower), readable(r.upper));
+  return say("{} to {} m/min", readable(r.lower), readable(r.upper));
 }
 
 std::string words(const HouseSpeed& s) {
-  auto text = fmt::format("speeds are {}", range_words(s.vc_m_min));
-  if (s.tool) text += fmt::format(" with {}", *s.tool);
-  if (s.material) text += fmt::format(" in {}", *s.material);
-  if (s.group)
-    text += fmt::format(" in group {}", "PMKNSH"[static_cast<std::size_t>(*s.group)]);
+  auto text = say("speeds are {}", range_words(s.vc_m_min));
+  if (s.tool) text += say(" with {}", *s.tool);
+  if (s.material) text += say(" in {}", *s.material);
+  if (s.group) text += say(" in group {}", "PMKNSH"[static_cast<std::size_t>(*s.group)]);
   return text;
 }
 
@@ -144,7 +144,7 @@ PlanRequest ruled(PlanRequest r) {
 std::vector<WithoutRule> without_each_rule(const PlanRequest& request) {
   std::vector<WithoutRule> all;
   const auto drop = [&](const std::string& rule) -> catalogue::ShopRules& {
-    all.push_back({"without the rule that " + rule, request});
+    all.push_back({say("without the rule that {}", rule), request});
     return all.back().request.rules;
   };
   const auto& rules = request.rules;
@@ -152,7 +152,7 @@ std::vector<WithoutRule> without_each_rule(const PlanRequest& request) {
     const auto is = [&](const auto& tool) { return tool.id == id; };
     if (std::ranges::any_of(request.tools, is) ||
         std::ranges::any_of(request.fixed_tools, is))
-      std::erase(drop(id + " is forbidden").forbidden_tools, id);
+      std::erase(drop(say("{} is forbidden", id)).forbidden_tools, id);
   }
   for (std::size_t i = 0; i < rules.speeds.size(); ++i)
     if (changes(rules.speeds[i], request)) {
@@ -160,9 +160,9 @@ std::vector<WithoutRule> without_each_rule(const PlanRequest& request) {
       speeds.erase(speeds.begin() + static_cast<std::ptrdiff_t>(i));
     }
   if (changes_spindle(request))
-    drop(fmt::format("no spindle runs faster than {} rpm", readable(*rules.n_max_rpm)))
+    drop(say("no spindle runs faster than {} rpm", readable(*rules.n_max_rpm)))
         .n_max_rpm.reset();
-  if (prefers_proven(request)) drop("proven conditions are preferred").proven.clear();
+  if (prefers_proven(request)) drop(tr("proven conditions are preferred")).proven.clear();
   return all;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/say.hpp"
 #include "infeasibility_reason.hpp"
 #include "planning/clamping/clamping_checks.hpp"
 #include "planning/values/side_by_side.hpp"
@@ -21,19 +22,20 @@ constexpr double kBeyondRounding = 1e-6;
 std::string takes(const PreparedPart& p, const Spending& t) {
   if (p.objective == Objective::time) return fmt::format("{:.4f} min", t.time_min);
   if (p.objective == Objective::profit)
-    return fmt::format("{:.4f} in {:.4f} min", t.cost, t.time_min);
+    return say("{:.4f} in {:.4f} min", t.cost, t.time_min);
   return fmt::format("{:.4f}", t.cost);
 }
 
 // The reason why a clamping is not chosen.
 RejectedClamping rejection(const PreparedPart& p, const SolvedSetup& s,
                            const SolvedSetup& best) {
-  const char* verb = p.objective == Objective::time ? "takes" : "costs";
   const auto least = takes(p, breakdown(p, best).total());
   if (s.feasible()) {
     const auto t = breakdown(p, s).total();
     return {s.clamping,
-            fmt::format("{} {} against {} for this setup", verb, takes(p, t), least),
+            p.objective == Objective::time
+                ? say("takes {} against {} for this setup", takes(p, t), least)
+                : say("costs {} against {} for this setup", takes(p, t), least),
             t.cost};
   }
   const auto f = std::find_if(s.features.begin(), s.features.end(),
@@ -42,7 +44,7 @@ RejectedClamping rejection(const PreparedPart& p, const SolvedSetup& s,
   if (!shown.answer.model) shown.answer = nearest(shown.task);
   if (!shown.answer.model || shown.answer.least_violation > kBeyondRounding)
     return {s.clamping, infeasibility_reason(p, shown), {}};
-  return {s.clamping, fmt::format("cannot do better than {} for this setup", least), {}};
+  return {s.clamping, say("cannot do better than {} for this setup", least), {}};
 }
 
 // The best of some clampings of one setup, each with its planner.

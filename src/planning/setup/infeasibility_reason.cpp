@@ -6,8 +6,10 @@
 #include <cmath>
 #include <limits>
 
+#include "base/say.hpp"
 #include "planning/values/readable.hpp"
 #include "planning/values/surface_request.hpp"
+#include "turnwright/planning/limit_words.hpp"
 
 namespace turnwright::planning {
 namespace {
@@ -36,25 +38,26 @@ std::string why_none(const PreparedPart& plan, const MachinedSurface& f) {
   const auto& fixed = f.fixed();
   const auto use = f.last_use();
   if (!plan.operations && tools_for(plan, use).empty())
-    return fmt::format(": none of the tools for {} has a grade for {}",
-                       use == catalogue::ToolUse::facing   ? "facing"
-                       : use == catalogue::ToolUse::boring ? "boring"
-                                                           : "finishing",
-                       plan.material.id);
+    return say(": none of the tools for {} has a grade for {}",
+               use == catalogue::ToolUse::facing   ? tr("facing")
+               : use == catalogue::ToolUse::boring ? tr("boring")
+                                                   : tr("finishing"),
+               plan.material.id);
   if (const auto asked = f.edges_asked(); !asked.empty())
-    return fmt::format(": no tool that could finish it fits and has {}", asked);
+    return say(": no tool that could finish it fits and has {}", asked);
   if (fixed.rough.ap_mm || fixed.finish.ap_mm)
-    return fmt::format(": the given passes do not add up to the {} mm to take off",
-                       readable(f.stock_mm()));
+    return say(": the given passes do not add up to the {} mm to take off",
+               readable(f.stock_mm()));
   if (f.by_bar())
-    return ": no boring bar is thin and long enough, or none can cut the depth that is "
-           "left";
+    return tr(
+        ": no boring bar is thin and long enough, or none can cut the depth that is "
+        "left");
   if (const auto& c = plan.machine.live_centre; meets_centre(plan, f))
-    return fmt::format(
+    return say(
         ": no tools that clear the live centre, with a point of {:g} mm and a body of "
         "{:g} mm {:g} mm behind its tip, give a depth they can cut",
         c.point_mm, c.body_mm, c.point_length_mm);
-  return ": no tool and pass count give a depth its tool can cut";
+  return tr(": no tool and pass count give a depth its tool can cut");
 }
 
 }  // namespace
@@ -64,7 +67,8 @@ Conflict used_up_conflict(const PreparedPart& plan, const SolvedSurface& f,
   const auto& t = plan.drawing.tolerances[d.tolerance];
   std::string sources;
   for (const auto& s : shares(tolerance_allocation(plan, d.tolerance, f.task.making)))
-    sources += fmt::format("{}{} {:.3g} um", sources.empty() ? "" : ", ", s.source, s.um);
+    sources +=
+        fmt::format("{}{} {:.3g} um", sources.empty() ? "" : ", ", tr(s.source), s.um);
   const auto called = t.id + " " + part::name(t.kind);
   const auto [taken, width] = readable_apart(d.taken_mm, width_mm(t));
   return {called,
@@ -72,8 +76,8 @@ Conflict used_up_conflict(const PreparedPart& plan, const SolvedSurface& f,
           d.taken_mm,
           width_mm(t),
           "mm",
-          fmt::format("{} of {}: without the cut {} of its {} mm are used up ({})",
-                      called, f.task.feature.surface(), taken, width, sources)};
+          say("{} of {}: without the cut {} of its {} mm are used up ({})",
+              limit_words(called), f.task.feature.surface(), taken, width, sources)};
 }
 
 std::string infeasibility_reason(const PreparedPart& plan, const SolvedSurface& f) {
@@ -84,9 +88,9 @@ std::string infeasibility_reason(const PreparedPart& plan, const SolvedSurface& 
   const auto& m = *f.answer.model;
   const auto w = worst_row(m, f.answer.choice);
   const auto c = constraint(plan, m.chain(), f.answer.choice, w.row);
-  return fmt::format("{}, {:.1f} % over at the nearest conditions found",
-                     exceeded(feature.surface(), c),
-                     100 * (either_sign(w.row.row.check) ? w.g : std::expm1(w.g)));
+  return say("{}, {:.1f} % over at the nearest conditions found",
+             exceeded(feature.surface(), c),
+             100 * (either_sign(w.row.row.check) ? w.g : std::expm1(w.g)));
 }
 
 }  // namespace turnwright::planning

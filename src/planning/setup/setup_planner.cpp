@@ -7,6 +7,7 @@
 #include <cmath>
 #include <ranges>
 
+#include "base/say.hpp"
 #include "operation_order.hpp"
 #include "planning/auxiliary/catalogue_operations.hpp"
 #include "planning/clamping/positions.hpp"
@@ -29,38 +30,39 @@ constexpr double kGap = 9e-5;
 
 RejectedTool rejection(const Tool& t, const char* use, bool cuts_material,
                        const Considered* least, const Considered& best) {
-  if (!cuts_material) return {t.id, use, "its grades are not for this material", {}};
-  if (!least) return {t.id, use, "the turret has too few stations for it", {}};
+  if (!cuts_material) return {t.id, use, tr("its grades are not for this material"), {}};
+  if (!least) return {t.id, use, tr("the turret has too few stations for it"), {}};
   if (!std::isfinite(least->at_least))
-    return {t.id, use, "cannot make every surface within its limits", {}};
+    return {t.id, use, tr("cannot make every surface within its limits"), {}};
   if (!least->solved && least->at_least < best.at_least)
     return {t.id, use,
-            fmt::format(
-                "as good as the chosen: at most {:.4f} below {:.4f} for this setup",
+            say("as good as the chosen: at most {:.4f} below {:.4f} for this setup",
                 std::ceil(1e4 * (best.at_least - least->at_least)) / 1e4, best.at_least),
             least->at_least};
   return {t.id, use,
-          fmt::format("{} {:.4f} against {:.4f} for this setup",
-                      least->solved ? "comes to" : "cannot come below", least->at_least,
-                      best.at_least),
+          least->solved ? say("comes to {:.4f} against {:.4f} for this setup",
+                              least->at_least, best.at_least)
+                        : say("cannot come below {:.4f} against {:.4f} for this setup",
+                              least->at_least, best.at_least),
           least->at_least};
 }
 
 Conflict too_few_stations(const PreparedPart& p, std::size_t setup,
                           const std::set<std::string>& tools) {
   const auto& m = p.machine;
-  return {
-      kStations,
-      setup_label(setup),
-      static_cast<double>(tools.size()),
-      static_cast<double>(m.stations),
-      "",
-      fmt::format("{} needs {} tools at least, {}; the turret of {} has {} station{}. "
-                  "Another setup for some of them, a tool that serves two uses, one "
-                  "cutter for several milled places or a turret with more stations "
-                  "would do",
-                  setup_label(setup), tools.size(), fmt::join(tools, ", "), m.name,
-                  m.stations, m.stations == 1 ? "" : "s")};
+  return {kStations,
+          setup_label(setup),
+          static_cast<double>(tools.size()),
+          static_cast<double>(m.stations),
+          "",
+          say("{} needs {} tools at least, {}; the turret of {} has {}. Another setup "
+              "for some "
+              "of them, a tool that serves two uses, one cutter for several milled "
+              "places or a "
+              "turret with more stations would do",
+              setup_label(setup), tools.size(), fmt::join(tools, ", "), m.name,
+              m.stations == 1 ? say("{} station", m.stations)
+                              : say("{} stations", m.stations))};
 }
 
 }  // namespace
@@ -285,11 +287,11 @@ std::vector<RejectedTool> SetupPlanner::rejected(const Considered& best) {
     const char* name;
   };
   constexpr std::array<Use, kToolMembers.size()> kUses{
-      {{ToolUse::facing, "facing"},
-       {ToolUse::roughing, "roughing"},
-       {ToolUse::finishing, "finishing"},
-       {ToolUse::boring, "boring, rough"},
-       {ToolUse::boring, "boring, finish"}}};
+      {{ToolUse::facing, to_translate("facing")},
+       {ToolUse::roughing, to_translate("roughing")},
+       {ToolUse::finishing, to_translate("finishing")},
+       {ToolUse::boring, to_translate("boring, rough")},
+       {ToolUse::boring, to_translate("boring, finish")}}};
   const auto all = terms();
   std::vector<RejectedTool> out;
   for (std::size_t list = 0; list < kUses.size(); ++list) {

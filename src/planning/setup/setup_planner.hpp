@@ -15,12 +15,13 @@
 #include "planning/values/surface_request.hpp"
 #include "solved_setup.hpp"
 #include "tool_choices.hpp"
+#include "turnwright/base/language.hpp"
 
 /// The surfaces of one setup in one clamping, and the tools they share.
 namespace turnwright::planning {
 
 /// How conflicts name the stations of the turret, which are too few.
-inline constexpr const char* kStations = "stations of the turret";
+inline constexpr const char* kStations = to_translate("stations of the turret");
 
 /// The objective of a setup with some choice of tools: its optimum, or a lower bound.
 struct Considered {

@@ -258,12 +258,12 @@ void add_robust_shares(const PreparedPart& p, const tolerance::Case& c, const Fo
                        const Found& other, const Taken& all, ToleranceResult& r) {
   constexpr double kReach = 3;  // standard deviations, as of every normal source
   const double scaled = all.by.ends * kReach * scaled_um(p, c, at, other);
-  add_share({"forces", force_spread(p) * scaled}, r.shares);
+  add_share({to_translate("forces"), force_spread(p) * scaled}, r.shares);
   if (p.shop.edge_wear_mm > 0) add_share({kLife, life_spread(p) * scaled}, r.shares);
   const auto& made = at.feature ? at : other;
   const double damping = damping_share_mm(p, made.cut_tolerance->tolerance,
                                           made.feature->task.making, part_of_cut(made));
-  add_share({"damping", units::um_from_mm(damping)}, r.shares);
+  add_share({to_translate("damping"), units::um_from_mm(damping)}, r.shares);
 }
 
 void predict(const PreparedPart& p, const Tolerance& t, const Found& at,
@@ -278,8 +278,9 @@ void predict(const PreparedPart& p, const Tolerance& t, const Found& at,
   r.verdict = made.margin_mm < -rounding  ? Verdict::not_met
               : cut.margin_mm < -rounding ? Verdict::met_with_offset
                                           : Verdict::met;
-  r.shares.insert(r.shares.begin(),
-                  {"deflection", all.by.ends * units::um_from_mm(scaled_mm(c, made))});
+  r.shares.insert(
+      r.shares.begin(),
+      {to_translate("deflection"), all.by.ends * units::um_from_mm(scaled_mm(c, made))});
   if (p.robust) add_robust_shares(p, c, at, other, all, r);
   if (t.limits) {
     const double middle = (t.limits->upper_mm + t.limits->lower_mm) / 2;

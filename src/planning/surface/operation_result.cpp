@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "planning/limits/limit_table.hpp"
+#include "turnwright/base/language.hpp"
 
 namespace turnwright::planning {
 namespace {
@@ -125,7 +126,7 @@ OperationKind kind_of(const MachinedSurface& feature, bool rough) {
 
 std::string row_name(const PreparedPart& plan, const Chain& chain, const Row& row) {
   if (row.check == Check::spindle_max && chain.operations[row.operation].n_cap_of_grip)
-    return "spindle speed that leaves a third of the grip";
+    return to_translate("spindle speed that leaves a third of the grip");
   if (row.check != Check::tolerance) return limit_row(row.check).name;
   const auto& t = plan.drawing.tolerances[chain.functionals[row.operation].tolerance];
   return t.id + " " + part::name(t.kind);

@@ -1,7 +1,6 @@
-#include <fmt/format.h>
-
 #include <cmath>
 
+#include "base/say.hpp"
 #include "machined_surface.hpp"
 #include "planning/clamping/centre_clearance.hpp"
 #include "planning/paths/approach.hpp"
@@ -43,24 +42,23 @@ std::string MachinedSurface::edges_asked() const {
   const auto add = [&](const std::string& what) {
     all += (all.empty() ? "" : ", ") + what;
   };
-  if (s.fillet_mm)
-    add(fmt::format("a corner of at most {:g} mm for the fillet", *s.fillet_mm));
+  if (s.fillet_mm) add(say("a corner of at most {:g} mm for the fillet", *s.fillet_mm));
   if (s.below_rounding_mm)
-    add(fmt::format("a corner of at most {:.3g} mm for the wall below the rounded edge",
-                    *s.below_rounding_mm));
+    add(say("a corner of at most {:.3g} mm for the wall below the rounded edge",
+            *s.below_rounding_mm));
   if (const auto u = undercut_of_last())
-    add(fmt::format(
+    add(say(
         "a corner of at most {:g} mm{}, a minor edge of at least {:g} deg and a largest "
         "depth of cut beyond {:g} mm for the undercut",
         u->radius_mm,
-        u->recess_mm > 0 ? fmt::format(", a KAPR of at least {:g} deg",
-                                       90 + units::deg_from_rad(part::leans_rad(*u)))
+        u->recess_mm > 0 ? say(", a KAPR of at least {:g} deg",
+                               90 + units::deg_from_rad(part::leans_rad(*u)))
                          : std::string(),
         units::deg_from_rad(part::falls_rad(*u)), u->depth_mm));
   if (s.wall_in_stock && s.wall_chamfer.axial_mm > 0)
-    add(fmt::format("a depth of cut for the {} of {:g} mm into stock",
-                    s.wall_chamfer.round ? "rounded edge" : "chamfer",
-                    s.wall_chamfer.axial_mm));
+    add(say("a depth of cut for the {} of {:g} mm into stock",
+            s.wall_chamfer.round ? tr("rounded edge") : tr("chamfer"),
+            s.wall_chamfer.axial_mm));
   return all;
 }
 

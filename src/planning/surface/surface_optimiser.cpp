@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/say.hpp"
 #include "tolerance_points.hpp"
 #include "turnwright/base/interval.hpp"
 
@@ -20,7 +21,7 @@ constexpr double kKept = 5e-10;        // the most that a limit may be exceeded 
 constexpr long kScouting = 30;         // boxes for a first bound of a task
 constexpr double kScoutingGap = 2e-2;  // and what they may leave open
 constexpr double kChatters = 5e-10;    // of the limit, as of a tolerance's
-constexpr const char* kNone = "proved: no conditions keep every limit";
+constexpr const char* kNone = to_translate("proved: no conditions keep every limit");
 
 struct Candidate {
   Recipe recipe;
@@ -75,7 +76,7 @@ optimise::Solution least_violation(const RecipeModel& m) {
 SurfaceAnswer not_below(const SurfaceAnswer& known) {
   SurfaceAnswer a;
   a.lower_bound = known.lower_bound;
-  a.certificate.reason = kNone;
+  a.certificate.reason = tr(kNone);
   return a;
 }
 
@@ -144,9 +145,10 @@ class FeatureSearch {
       if (best_.f < before && violated()) continue;
       return answer(std::move(s));
     }
-    throw std::runtime_error("planning " + task_.feature.surface() +
-                             ": the search for the positions at which its tolerances "
-                             "bind did not converge");
+    throw std::runtime_error(
+        say("planning {}: the search for the positions at which its tolerances bind did "
+            "not converge",
+            task_.feature.surface()));
   }
 
  private:
@@ -224,8 +226,8 @@ class FeatureSearch {
       bound_ = std::min(bound_, r.lower_bound);
       nodes_ += r.nodes;
       if (!r.complete)
-        unfinished_ = "the budget of " + std::to_string(r.nodes) +
-                      " boxes ended before every box was settled";
+        unfinished_ =
+            say("the budget of {} boxes ended before every box was settled", r.nodes);
     }
   }
 
@@ -303,7 +305,7 @@ class FeatureSearch {
     a.lower_bound = std::exp(bound_);
     a.certificate = certificate();
     a.certificate.kind = CertificateKind::none;
-    if (unfinished_.empty()) a.certificate.reason = kNone;
+    if (unfinished_.empty()) a.certificate.reason = tr(kNone);
     return a;
   }
 
@@ -370,7 +372,7 @@ SurfaceAnswer kept_on_corrected_path(const SurfaceTask& task, Solve solve) {
     if (a.feasible && a.certificate.gap > kCertified) {
       a.certificate.kind = CertificateKind::local;
       a.certificate.reason =
-          "the sizes were tightened until the corrected path keeps them";
+          tr("the sizes were tightened until the corrected path keeps them");
     }
   }
   return a;

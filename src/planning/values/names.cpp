@@ -1,23 +1,22 @@
+#include "base/say.hpp"
 #include "turnwright/planning/process_plan.hpp"
 
 namespace turnwright::planning {
 
-std::string setup_label(std::size_t index) {
-  return "setup " + std::to_string(index + 1);
-}
+std::string setup_label(std::size_t index) { return say("setup {}", index + 1); }
 
 const char* name(Clamping c) {
   switch (c) {
     case Clamping::chuck:
-      return "chuck";
+      return to_translate("chuck");
     case Clamping::chuck_tailstock:
-      return "chuck-tailstock";
+      return to_translate("chuck-tailstock");
     case Clamping::between_centres:
-      return "between-centres";
+      return to_translate("between-centres");
     case Clamping::chuck_steady:
-      return "chuck-steady";
+      return to_translate("chuck-steady");
     case Clamping::tailstock_follow:
-      return "tailstock-follow";
+      return to_translate("tailstock-follow");
   }
   return "";
 }
@@ -25,11 +24,11 @@ const char* name(Clamping c) {
 const char* name(Jaws jaws) {
   switch (jaws) {
     case Jaws::hard:
-      return "hard";
+      return to_translate("hard");
     case Jaws::soft:
-      return "soft";
+      return to_translate("soft");
     case Jaws::collet:
-      return "collet";
+      return to_translate("collet");
   }
   return "";
 }
@@ -37,21 +36,21 @@ const char* name(Jaws jaws) {
 const char* name(OperationKind k) {
   switch (k) {
     case OperationKind::face:
-      return "face";
+      return to_translate("face");
     case OperationKind::rough:
-      return "rough";
+      return to_translate("rough");
     case OperationKind::finish:
-      return "finish";
+      return to_translate("finish");
     case OperationKind::bore_rough:
-      return "bore-rough";
+      return to_translate("bore-rough");
     case OperationKind::bore_finish:
-      return "bore-finish";
+      return to_translate("bore-finish");
     case OperationKind::fixed:
-      return "fixed";
+      return to_translate("fixed");
     case OperationKind::mill:
-      return "mill";
+      return to_translate("mill");
     case OperationKind::cross_drill:
-      return "cross-drill";
+      return to_translate("cross-drill");
   }
   return "";
 }
@@ -59,13 +58,13 @@ const char* name(OperationKind k) {
 const char* name(MilledKind k) {
   switch (k) {
     case MilledKind::flat:
-      return "flat";
+      return to_translate("flat");
     case MilledKind::keyway:
-      return "keyway";
+      return to_translate("keyway");
     case MilledKind::slot:
-      return "slot";
+      return to_translate("slot");
     case MilledKind::cross_hole:
-      return "cross-hole";
+      return to_translate("cross-hole");
   }
   return "";
 }
@@ -83,17 +82,17 @@ const char* name(Through t) {
 }
 
 const char* name(Direction d) {
-  return d == Direction::to_chuck ? "to-chuck" : "from-chuck";
+  return d == Direction::to_chuck ? to_translate("to-chuck") : to_translate("from-chuck");
 }
 
 const char* name(Verdict v) {
   switch (v) {
     case Verdict::met:
-      return "met";
+      return to_translate("met");
     case Verdict::met_with_offset:
-      return "met-with-offset";
+      return to_translate("met-with-offset");
     case Verdict::not_met:
-      return "not-met";
+      return to_translate("not-met");
   }
   return "";
 }

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "base/say.hpp"
+#include "turnwright/planning/limit_words.hpp"
 #include "turnwright/planning/process_plan.hpp"
 
 namespace turnwright::planning {
@@ -26,9 +28,10 @@ std::pair<std::string, std::string> readable_apart(double a, double b) {
 
 std::string exceeded(const std::string& where, const ConstraintValue& c) {
   const auto [value, limit] = readable_apart(c.value, c.limit);
-  if (value == limit) return fmt::format("{}: nothing is left for {}", where, c.name);
-  return fmt::format("{}: {} is {} {} where {} {} is allowed", where, c.name, value,
-                     c.unit, limit, c.unit);
+  const auto name = limit_words(c.name);
+  if (value == limit) return say("{}: nothing is left for {}", where, name);
+  return say("{}: {} is {} {} where {} {} is allowed", where, name, value, c.unit, limit,
+             c.unit);
 }
 
 }  // namespace turnwright::planning

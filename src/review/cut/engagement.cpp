@@ -9,6 +9,7 @@
 
 #include "mounted_edge.hpp"
 #include "turnwright/base/cancelled.hpp"
+#include "turnwright/base/language.hpp"
 #include "turnwright/base/units.hpp"
 
 namespace turnwright::review {
@@ -145,16 +146,17 @@ class Follower {
     if (tool_) {
       edge_ = mounted_edge(*tool_, sign_);
       if (knurls() && missing_.insert(tool_number_).second)
-        out_.unknown.push_back({run.moves.empty() ? 0 : run.moves.front().line,
-                                fmt::format("T{}", tool_number_),
-                                "A knurling wheel takes nothing off, and its forces are "
-                                "not known: its ways are not followed."});
+        out_.unknown.push_back(
+            {run.moves.empty() ? 0 : run.moves.front().line,
+             fmt::format("T{}", tool_number_),
+             tr("A knurling wheel takes nothing off, and its forces are "
+                "not known: its ways are not followed.")});
     } else if (!run.step.milling && missing_.insert(tool_number_).second) {
       out_.unknown.push_back(
           {run.moves.empty() ? 0 : run.moves.front().line,
-           tool_number_ > 0 ? fmt::format("T{}", tool_number_) : "no tool is called",
-           "No document of this tool is given: its cuts are not "
-           "followed, and leave the stock as it is."});
+           tool_number_ > 0 ? fmt::format("T{}", tool_number_) : tr("no tool is called"),
+           tr("No document of this tool is given: its cuts are not "
+              "followed, and leave the stock as it is.")});
     }
   }
 
@@ -248,8 +250,8 @@ class Follower {
   // Whether one more way is followed; tells the first that is not.
   bool goes_on(std::size_t line) {
     if (++pieces_ == kMostPieces)
-      out_.unknown.push_back({line, "the cuts from here on",
-                              "The program has more ways than are followed."});
+      out_.unknown.push_back({line, tr("the cuts from here on"),
+                              tr("The program has more ways than are followed.")});
     return pieces_ < kMostPieces;
   }
 

@@ -7,6 +7,8 @@
 #include <numbers>
 #include <utility>
 
+#include "turnwright/base/language.hpp"
+
 namespace turnwright::review {
 namespace {
 
@@ -185,13 +187,13 @@ void rough(ModalState& s, const Contour& contour, const ContourCycle& cycle,
   const auto all = points(contour, cycle);
   if (!s.x_mm || !s.z_mm || all.size() < 2 || !(cycle.depth_mm > 0))
     return s.unknown(cycle.name,
-                     "Its contour, its depth or the tool's place is not known.");
+                     tr("Its contour, its depth or the tool's place is not known."));
   Levels levels(s, direction, all);
   if (!levels.steady())
     return s.unknown(cycle.name,
-                     "Only contours that go one way in X and in Z are followed.");
+                     tr("Only contours that go one way in X and in Z are followed."));
   if (!levels.cut(cycle.depth_mm, cycle.retract_mm))
-    s.unknown(cycle.name, "It has more than 500 passes.");
+    s.unknown(cycle.name, tr("It has more than 500 passes."));
   levels.begin_contour();
   along(s, contour, cycle.left_x_mm, cycle.left_z_mm);
   if (cycle.comes_back) levels.back();
@@ -204,18 +206,18 @@ void remove_stock(ModalState& s, const Contour& contour, const StockRemoval& c,
     const auto last = std::exchange(before, p);
     return last && std::hypot(p.h_mm - last->h_mm, p.z_mm - last->z_mm) < kLevel_mm;
   });
-  const auto lost = [&s](const char* why) {
+  const auto lost = [&s](const std::string& why) {
     s.unknown("CYCLE95", why);
     s.lose_place();
   };
   if (all.size() < 2 || !(c.retract_mm >= 0) || (c.roughs && !(c.depth_mm > 0)))
-    return lost("Its contour or its depth is not known.");
+    return lost(tr("Its contour or its depth is not known."));
   const double outwards = c.inside ? -1 : 1;
   const bool along_x = direction == RoughingAlong::x;
   const double forwards = all.back().z_mm < all.front().z_mm ? -1 : 1;
   const double away_z = along_x ? forwards : -forwards;
   if ((along_x ? -1 : 1) * outwards * (all.back().h_mm - all.front().h_mm) < 0)
-    return lost("Its contour goes the other way than its kind.");
+    return lost(tr("Its contour goes the other way than its kind."));
   // With X up and Z to the right the tool is to the right of an outer contour that goes left.
   const double side = outwards * forwards;
   if (c.left_mm > 0) all = beside(all, c.left_mm, -side);
@@ -235,9 +237,9 @@ void remove_stock(ModalState& s, const Contour& contour, const StockRemoval& c,
     feed(c.rough_feed);
     Levels levels(s, direction, all);
     if (!levels.steady())
-      return lost("Only contours that go one way in X and in Z are followed.");
+      return lost(tr("Only contours that go one way in X and in Z are followed."));
     if (!levels.cut_evenly(c.depth_mm, c.retract_mm, c.corners))
-      return lost("It has more than 500 passes.");
+      return lost(tr("It has more than 500 passes."));
     levels.back();
   }
   s.F = F;
@@ -265,9 +267,10 @@ void remove_stock(ModalState& s, const Contour& contour, const StockRemoval& c,
 void repeat_pattern(ModalState& s, const Contour& contour, const ContourCycle& cycle) {
   const auto all = points(contour, cycle);
   if (!s.x_mm || !s.z_mm || all.size() < 2 || !(cycle.passes >= 1))
-    return s.unknown("G73", "Its contour, its passes or the tool's place is not known.");
+    return s.unknown("G73",
+                     tr("Its contour, its passes or the tool's place is not known."));
   if (!(cycle.passes <= kMostPasses))
-    return s.unknown("G73", "It has more than 500 passes.");
+    return s.unknown("G73", tr("It has more than 500 passes."));
   const double x0 = *s.x_mm, z0 = *s.z_mm;
   const double n = std::floor(cycle.passes);
   for (double pass = 1; pass <= n; ++pass) {
@@ -302,8 +305,8 @@ void follow_contour(ModalState& s, const Contour& contour, double dx, double dz)
 
 void finish(ModalState& s, const Contour& contour) {
   if (!s.x_mm || !s.z_mm)
-    return s.unknown("G70 from a place that is not known",
-                     "X or Z was not given before it.");
+    return s.unknown(tr("G70 from a place that is not known"),
+                     tr("X or Z was not given before it."));
   const double x0 = *s.x_mm, z0 = *s.z_mm;
   follow_contour(s, contour, 0, 0);
   s.straight(Kind::rapid, x0, *s.z_mm);
@@ -335,7 +338,7 @@ std::optional<double> ContourCycleReader::take(ModalState& s, gcode::Control con
   const auto contour = between(*P, *Q);
   if (!contour) {
     s.unknown(fmt::format("P{:g} Q{:g}", *P, *Q),
-              "There are no such blocks in the program, or they call others.");
+              tr("There are no such blocks in the program, or they call others."));
     s.lose_place();
     return std::nullopt;
   }

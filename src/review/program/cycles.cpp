@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "turnwright/base/language.hpp"
+
 namespace turnwright::review {
 namespace {
 
@@ -15,8 +17,8 @@ constexpr double kRounding_mm = 1e-6;
 
 void box_cycle(ModalState& s, Box box, double x, double z, double lead_mm) {
   if (!s.x_mm || !s.z_mm)
-    return s.unknown("a cycle from a place that is not known",
-                     "X or Z was not given before it.");
+    return s.unknown(tr("a cycle from a place that is not known"),
+                     tr("X or Z was not given before it."));
   const double x0 = *s.x_mm, z0 = *s.z_mm;
   switch (box) {
     case Box::turning:
@@ -41,8 +43,8 @@ void box_cycle(ModalState& s, Box box, double x, double z, double lead_mm) {
 void tap_cycle(ModalState& s, double from_z, double to_z, double lead_mm) {
   if (!s.x_mm || !s.z_mm || *s.x_mm != 0 || !(lead_mm > 0))
     return s.unknown(
-        "a tap that is not followed",
-        "X or Z was not given before it, X is not 0, or the lead is missing.");
+        tr("a tap that is not followed"),
+        tr("X or Z was not given before it, X is not 0, or the lead is missing."));
   const double z0 = *s.z_mm;
   s.straight(Kind::rapid, 0, from_z);
   s.thread(0, to_z, lead_mm);
@@ -67,8 +69,9 @@ std::vector<double> strokes(double from_z_mm, double bottom_z_mm, double first_m
 void drill_cycle(ModalState& s, const DrillCycle& c) {
   if (!s.x_mm || (*s.x_mm != 0 && !s.milling.on) || c.strokes_z_mm.empty())
     return s.lose_place(),
-           s.unknown("a drilling cycle",
-                     "X is not known or not 0, or its depth or strokes are not given.");
+           s.unknown(
+               tr("a drilling cycle"),
+               tr("X is not known or not 0, or its depth or strokes are not given."));
   const double outwards = c.from_z_mm > c.strokes_z_mm.back() ? 1 : -1;
   s.straight(Kind::rapid, s.x_mm, c.from_z_mm);
   const double F = s.F;
@@ -98,7 +101,7 @@ void drill_cycle(ModalState& s, const DrillCycle& c) {
 void thread_cycle(ModalState& s, const ThreadCycle& c) {
   const double depth = std::abs(c.end_x_mm - c.outside_mm);
   if (!(depth > 0 && c.first_mm > 0 && c.degression >= 1 && c.lead_mm > 0) || !s.x_mm)
-    return s.unknown("G76", "Depth, first infeed or lead is missing.");
+    return s.unknown("G76", tr("Depth, first infeed or lead is missing."));
   const auto left = [depth](double cut_mm) { return cut_mm < depth - kRounding_mm; };
   const double inwards = c.end_x_mm < c.outside_mm ? -1 : 1;
   double cut = 0;
@@ -108,13 +111,14 @@ void thread_cycle(ModalState& s, const ThreadCycle& c) {
     cut = std::min(depth, std::max(wanted, cut + c.least_mm));
     box_cycle(s, Box::threading, c.outside_mm + inwards * cut, c.end_z_mm, c.lead_mm);
   }
-  if (left(cut)) s.unknown("G76", "It has more than 200 cuts; only these are followed.");
+  if (left(cut))
+    s.unknown("G76", tr("It has more than 200 cuts; only these are followed."));
 }
 
 void ThreadCycleReader::take(ModalState& s, gcode::Control control, const Block& block) {
   if (!s.x_mm || !s.z_mm)
-    return s.unknown("G76 from a place that is not known",
-                     "X or Z was not given before it.");
+    return s.unknown(tr("G76 from a place that is not known"),
+                     tr("X or Z was not given before it."));
   if (control == gcode::Control::linuxcnc) return linuxcnc(s, block);
   if (control == gcode::Control::haas) return haas(s, block);
   fanuc(s, block);
@@ -135,7 +139,7 @@ void ThreadCycleReader::linuxcnc(ModalState& s, const Block& block) {
   c.spring_cuts = static_cast<int>(std::clamp(block.value("H").value_or(0), 0.0, 99.0));
   c.lead_mm = length("P");
   if (block.value("E").value_or(0) > 0 && block.value("L").value_or(0) > 0)
-    s.assume("Tapered ends of threads (E and L of G76) are taken as straight.");
+    s.assume(tr("Tapered ends of threads (E and L of G76) are taken as straight."));
   thread_cycle(s, c);
 }
 
@@ -146,7 +150,7 @@ void ThreadCycleReader::fanuc(ModalState& s, const Block& block) {
     return;
   }
   if (!X || !Z || block.value("R").value_or(0) != 0)
-    return s.unknown("G76", "Only straight threads with X and Z are followed.");
+    return s.unknown("G76", tr("Only straight threads with X and Z are followed."));
   ThreadCycle c;
   c.end_x_mm = s.mm(*X) / 2;
   c.end_z_mm = s.mm(*Z);
@@ -161,7 +165,7 @@ void ThreadCycleReader::fanuc(ModalState& s, const Block& block) {
 void ThreadCycleReader::haas(ModalState& s, const Block& block) {
   const auto X = block.value("X"), Z = block.value("Z");
   if (!X || !Z || block.value("I").value_or(0) != 0)
-    return s.unknown("G76", "Only straight threads with X and Z are followed.");
+    return s.unknown("G76", tr("Only straight threads with X and Z are followed."));
   ThreadCycle c;
   c.end_x_mm = s.mm(*X) / 2;
   c.end_z_mm = s.mm(*Z);
@@ -174,8 +178,8 @@ void ThreadCycleReader::haas(ModalState& s, const Block& block) {
 
 void peck_cycle(ModalState& s, const PeckCycle& c) {
   if (!s.x_mm || !s.z_mm)
-    return s.unknown("a cycle from a place that is not known",
-                     "X or Z was not given before it.");
+    return s.unknown(tr("a cycle from a place that is not known"),
+                     tr("X or Z was not given before it."));
   // Along: the axis of the pecks.  Across: that of their places.
   const double x0 = *s.x_mm, z0 = *s.z_mm;
   const double along0 = c.along_x ? x0 : z0, across0 = c.along_x ? z0 : x0;
@@ -189,8 +193,8 @@ void peck_cycle(ModalState& s, const PeckCycle& c) {
     c.along_x ? s.straight(kind, along, across) : s.straight(kind, across, along);
   };
   if (!(depth > 0 && depth <= kMostCuts * peck && width <= kMostCuts * shift))
-    return s.unknown("a cycle of pecks",
-                     "It has no depth, or more than 200 pecks or places.");
+    return s.unknown(tr("a cycle of pecks"),
+                     tr("It has no depth, or more than 200 pecks or places."));
   for (double at = 0; !s.full(); at = std::min(at + shift, width)) {
     const double across = across0 + further * at;
     go(Kind::rapid, along0, across);

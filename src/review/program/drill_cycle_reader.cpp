@@ -5,6 +5,7 @@
 
 #include "cycles.hpp"
 #include "parameters.hpp"
+#include "turnwright/base/language.hpp"
 
 namespace turnwright::review {
 namespace {
@@ -36,7 +37,7 @@ void DrillCycleReader::take(ModalState& s, Control control, int code, const Bloc
                             std::optional<double> x_mm, std::optional<double> z_mm) {
   const bool linuxcnc = control == Control::linuxcnc;
   if (linuxcnc && (s.plane != 17 || s.incremental))
-    throw NotFollowed("Drilling cycles are followed in G17 with G90.");
+    throw NotFollowed(tr("Drilling cycles are followed in G17 with G90."));
   for (const auto& w : block.words) {
     std::erase_if(block_.words, [&](const Word& old) { return old.name == w.name; });
     if (std::string_view("QPIJK").find(w.name) != std::string_view::npos)
@@ -45,7 +46,7 @@ void DrillCycleReader::take(ModalState& s, Control control, int code, const Bloc
   if (z_mm) z_mm_ = z_mm;
   if (linuxcnc || (x_mm && x_mm != s.x_mm))
     s.straight(toolpath::Move::Kind::rapid, x_mm, s.z_mm);
-  if (!z_mm_ || !s.z_mm) throw NotFollowed("Z was not given before or in it.");
+  if (!z_mm_ || !s.z_mm) throw NotFollowed(tr("Z was not given before or in it."));
   const auto R = block.value("R");
   if (R) R_mm_ = s.mm(*R) + (like_haas(control) ? 0 : *s.z_mm);
   DrillCycle d{.from_z_mm = R_mm_.value_or(*s.z_mm), .away_z_mm = *s.z_mm};
@@ -65,9 +66,9 @@ void DrillCycleReader::take(ModalState& s, Control control, int code, const Bloc
   d.before_mm = linuxcnc ? kLinuxCncBack_mm : kBackIsSetting_mm;
   d.retract_mm = kLinuxCncBack_mm;
   if (!linuxcnc && d.strokes_z_mm.size() > 1)
-    s.assume(
+    s.assume(tr(
         "G83 comes out of the hole after each stroke and feeds again 0.5 mm before the "
-        "depth reached; parameters of the control say so.");
+        "depth reached; parameters of the control say so."));
   const auto* P = block_.find("P");
   const bool ms = P && !linuxcnc && !P->point;
   d.wait_bottom_min = P && code != 81 ? *P->value / (ms ? 1000 : 1) / 60 : 0;

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/say.hpp"
 #include "letters.hpp"
 
 namespace turnwright::review {
@@ -122,7 +123,7 @@ class Expression {
 
  private:
   [[noreturn]] void broken() const {
-    throw NotFollowed(fmt::format("{} is no expression.", text_));
+    throw NotFollowed(say("{} is no expression.", text_));
   }
   void skip_blanks() {
     while (at_ < text_.size() && is_blank(text_[at_])) ++at_;
@@ -201,7 +202,7 @@ class Expression {
   }
   double whole(double a) const {
     if (a == std::round(a)) return a;
-    throw NotFollowed("DIV is followed between whole numbers.");
+    throw NotFollowed(tr("DIV is followed between whole numbers."));
   }
   double remainder(double a, double b) const {
     const double r = checked(std::fmod(a, b));
@@ -209,7 +210,7 @@ class Expression {
   }
   double checked(double x) const {
     if (std::abs(x) <= kLargestResult) return x;
-    throw NotFollowed(fmt::format("{} has no value that a control can hold.", text_));
+    throw NotFollowed(say("{} has no value that a control can hold.", text_));
   }
 
   Value value() {
@@ -284,12 +285,12 @@ class Expression {
       return remainder(all[0], all[1]);
     if (name == "ATAN2" && all.size() == 2) return std::atan2(all[0], all[1]) / kDeg;
     if (language_ == Language::okuma)
-      throw NotFollowed(fmt::format("The function {} is not known.", name));
+      throw NotFollowed(say("The function {} is not known.", name));
     if (name == "MINVAL" && all.size() == 2) return std::min(all[0], all[1]);
     if (name == "MAXVAL" && all.size() == 2) return std::max(all[0], all[1]);
     if (name == "BOUND" && all.size() == 3 && all[0] <= all[1])
       return std::clamp(all[2], all[0], all[1]);
-    throw NotFollowed(fmt::format("The function {} is not known.", name));
+    throw NotFollowed(say("The function {} is not known.", name));
   }
   std::vector<double> arguments() {
     if (!takes(opening_) || ++depth_ > kDeepestBrackets) broken();
@@ -349,7 +350,7 @@ class Expression {
                              : language_ == Language::okuma   ? f.okuma
                                                               : f.macro_b))
         return f.value(a);
-    throw NotFollowed(fmt::format("The function {} is not known.", name));
+    throw NotFollowed(say("The function {} is not known.", name));
   }
 
   std::string_view text_;
@@ -389,7 +390,7 @@ void set_named(Parameters& parameters, std::string_view parameter, double value)
     return parameters.set(*number, value);
   if (const auto n = number_behind(letter, name)) return parameters.set(*n, value);
   if (parameters.language() == Language::siemens && !parameters.declared(name))
-    throw NotFollowed(fmt::format("{} is not declared in the program.", parameter));
+    throw NotFollowed(say("{} is not declared in the program.", parameter));
   parameters.set(number ? fmt::format("{}[{:.0f}]", name, *number) : name, value);
 }
 
@@ -435,7 +436,7 @@ void evaluate(Block& block, Parameters& parameters) {
     if (w.expression.empty()) continue;
     w.value = value_of(w.expression, parameters);
     if (!(std::abs(w.value.value_or(0)) <= kLargestWord))
-      throw NotFollowed(fmt::format("{} is larger than words may be.", w.text));
+      throw NotFollowed(say("{} is larger than words may be.", w.text));
     w.point = true;
   }
   std::erase_if(block.words,

@@ -9,6 +9,7 @@
 
 #include "expression.hpp"
 #include "letters.hpp"
+#include "turnwright/base/language.hpp"
 
 namespace turnwright::review {
 namespace {
@@ -245,13 +246,13 @@ std::optional<std::size_t> Flow::block_behind(const std::string& label) const {
 
 std::size_t Flow::block_or_throw(double N) const {
   const auto line = block(N);
-  if (!line) throw NotFollowed("There is no block of this number.");
+  if (!line) throw NotFollowed(tr("There is no block of this number."));
   return *line;
 }
 
 void Flow::push(Call call, double times) {
   if (calls_.size() > kDeepestCalls)
-    throw NotFollowed("Calls are followed ten deep, and no deeper.");
+    throw NotFollowed(tr("Calls are followed ten deep, and no deeper."));
   call.times = std::lround(std::clamp(times, 0.0, kMostRuns));
   if (call.times == 0) return;
   call.back = at_;
@@ -261,7 +262,7 @@ void Flow::push(Call call, double times) {
 
 void Flow::call_program(double number, double times) {
   const auto line = program(label_of(number));
-  if (!line) throw NotFollowed("The subprogram is not in the text.");
+  if (!line) throw NotFollowed(tr("The subprogram is not in the text."));
   const auto end = labels_.end_of_program(*line);
   push({.begin = *line, .end = end, .from = *line + 1, .stop = end}, times);
 }
@@ -274,7 +275,7 @@ void Flow::call_blocks(double N, double times) {
 
 bool Flow::call_named(const std::string& name, double times) {
   const auto line = program(name);
-  if (!line) throw NotFollowed("The subprogram is not in the text.");
+  if (!line) throw NotFollowed(tr("The subprogram is not in the text."));
   const auto end = labels_.end_of_program(*line);
   const auto depth = calls_.size();
   push({.begin = *line, .end = end, .from = *line + 1, .stop = end}, times);

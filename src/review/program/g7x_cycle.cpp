@@ -6,6 +6,7 @@
 
 #include "parameters.hpp"
 #include "plane.hpp"
+#include "turnwright/base/language.hpp"
 
 namespace turnwright::review {
 namespace {
@@ -39,7 +40,7 @@ Way beside_of(const Way& w, double left_mm) {
   out.from = plus(w.from, to_the_right(direction(w, false)), -left_mm);
   out.to = plus(w.to, to_the_right(direction(w, true)), -left_mm);
   if (w.arc && !(radius(w) + (w.clockwise ? left_mm : -left_mm) > kMeets_mm))
-    throw NotFollowed("An arc of the contour is smaller than what is left on it.");
+    throw NotFollowed(tr("An arc of the contour is smaller than what is left on it."));
   return out;
 }
 
@@ -47,7 +48,8 @@ Way beside_of(const Way& w, double left_mm) {
 Point meeting(const Way& a, const Way& b) {
   const auto& line = a.arc ? b : a;
   const auto& other = a.arc ? a : b;
-  if (line.arc) throw NotFollowed("An inner corner between two arcs is not followed.");
+  if (line.arc)
+    throw NotFollowed(tr("An inner corner between two arcs is not followed."));
   const auto d = direction(line, false);
   if (!other.arc) {
     const auto e = direction(other, false);
@@ -57,7 +59,7 @@ Point meeting(const Way& a, const Way& b) {
   const double along = dot(to, d), R = radius(other);
   const double rest = R * R - (dot(to, to) - along * along);
   if (!(rest >= 0))
-    throw NotFollowed("What is left does not fit a corner of the contour.");
+    throw NotFollowed(tr("What is left does not fit a corner of the contour."));
   const auto near = plus(line.from, d, along - std::sqrt(rest));
   const auto far = plus(line.from, d, along + std::sqrt(rest));
   return length(between(near, a.to)) < length(between(far, a.to)) ? near : far;
@@ -95,7 +97,7 @@ class G7x {
                          m.to.centre,
                          m.to.clockwise});
       }
-    if (ways_.size() < 2) throw NotFollowed("Its contour has less than two moves.");
+    if (ways_.size() < 2) throw NotFollowed(tr("Its contour has less than two moves."));
     ways_.erase(ways_.begin());  // to its first point
     outwards_ = level(start_) < level(ways_.front().from) ? -1 : 1;
     forwards_ = place(ways_.back().to) < place(ways_.front().from) ? -1 : 1;
@@ -115,7 +117,7 @@ class G7x {
     const auto first = ways.front().from;
     const double depth = outwards_ * (level(start_) - level(first));
     if (!(step_mm > 0) || !(depth / step_mm <= kMostG7xPasses))
-      throw NotFollowed("Its passes are more than 500, or have no depth.");
+      throw NotFollowed(tr("Its passes are more than 500, or have no depth."));
     for (double done = 0; depth - done > kMeets_mm; done += step_mm)
       pass(level(start_) - outwards_ * done,
            std::lerp(place(start_), place(first), done / depth), ways, back_mm);
@@ -125,7 +127,7 @@ class G7x {
 
   void finish(double from_mm, double to_mm, double passes) {
     if (!(passes >= 1 && passes <= kMostG7xPasses))
-      throw NotFollowed("Its passes are none or more than 500.");
+      throw NotFollowed(tr("Its passes are none or more than 500."));
     for (double k = std::floor(passes); k >= 1; --k) {
       const auto ways =
           beside_all(ways_, left_ * ((k - 1) * (from_mm - to_mm) / passes + to_mm));
@@ -147,7 +149,7 @@ class G7x {
     const bool steady = outwards_ * (level(w.to) - level(w.from)) > -kMeets_mm &&
                         forwards_ * (place(w.to) - place(w.from)) > -kMeets_mm;
     if (!steady)
-      throw NotFollowed("Only contours that go one way in X and in Z are followed.");
+      throw NotFollowed(tr("Only contours that go one way in X and in Z are followed."));
   }
 
   // Where a way that rises through a level meets it.
@@ -202,9 +204,9 @@ void g7x_cycle(ModalState& s, int code, const Block& block, const Contour& conto
     const auto v = block.value(name);
     return v ? s.mm(*v) : none;
   };
-  if (!s.x_mm || !s.z_mm) throw NotFollowed("X or Z was not given before it.");
+  if (!s.x_mm || !s.z_mm) throw NotFollowed(tr("X or Z was not given before it."));
   if (code != 70 && s.nose.side != NoseSide::none)
-    throw NotFollowed("The control refuses it while a nose is compensated.");
+    throw NotFollowed(tr("The control refuses it while a nose is compensated."));
   G7x cycle(s, code == 72, contour);
   if (code == 70)
     return cycle.finish(value("D", 0), value("E", 0), block.value("P").value_or(1));

@@ -5,6 +5,7 @@
 
 #include "expression.hpp"
 #include "letters.hpp"
+#include "turnwright/base/language.hpp"
 #include "words.hpp"
 
 namespace turnwright::review {
@@ -47,7 +48,8 @@ MacroStatements::MacroStatements(const Flow& flow) {
 
 std::size_t MacroStatements::other_end(std::size_t line) const {
   const auto found = ends_.find(line);
-  if (found == ends_.end()) throw NotFollowed("The loop's other end is not in the text.");
+  if (found == ends_.end())
+    throw NotFollowed(tr("The loop's other end is not in the text."));
   return found->second;
 }
 
@@ -69,12 +71,12 @@ void MacroStatements::branch(Flow& flow, std::string_view rest) const {
   const auto [holds, then] = flow.holds(rest);
   const auto [word, what] = keyword_of(then);
   if (word != "GOTO" && word != "THEN")
-    throw NotFollowed("Behind a condition GOTO or THEN is followed.");
+    throw NotFollowed(tr("Behind a condition GOTO or THEN is followed."));
   if (!holds) return;
   if (word == "GOTO") return go_to(flow, what);
   auto block = block_of(what, Language::macro_b);
   if (!block.words.empty() || !block.rest.empty() || block.assignments.empty())
-    throw NotFollowed("Behind THEN a variable must be set.");
+    throw NotFollowed(tr("Behind THEN a variable must be set."));
   evaluate(block, flow.parameters);
 }
 

@@ -1,11 +1,10 @@
 #include "modal_state.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "base/say.hpp"
 #include "plane.hpp"
 #include "turnwright/base/units.hpp"
 
@@ -38,7 +37,7 @@ void list(std::vector<Unknown>& all, Unknown unknown) {
   const auto line = unknown.line;
   if (all.size() < kUnknowns) all.push_back(std::move(unknown));
   if (all.size() == kUnknowns)
-    all.back() = {line, "more of this kind", "Only the first 200 are listed."};
+    all.back() = {line, tr("more of this kind"), tr("Only the first 200 are listed.")};
 }
 
 void ModalState::unknown(std::string what, std::string why) {
@@ -64,8 +63,8 @@ Step ModalState::conditions(const Move& move, double lead_mm) {
   double n = S;
   if (surface_speed) {
     assume(
-        "A feed per minute at constant surface speed is taken at the spindle speed at "
-        "the end of its move.");
+        tr("A feed per minute at constant surface speed is taken at the spindle speed at "
+           "the end of its move."));
     n = std::min(limit_rpm,
                  units::spindle_rpm(S, std::max(2 * std::abs(move.x_mm), 1e-3)));
   }
@@ -87,11 +86,12 @@ void ModalState::mill(const Move& move) {
                      : std::max(m.f_mm_min, kLeastFeed);
   step.milling = m;
   if (!(m.f_mm_min >= kLeastFeed))
-    return unknown("a cut", "No feed of the driven tool is given.");
+    return unknown(tr("a cut"), tr("No feed of the driven tool is given."));
   if (milled_by_.insert(tool).second)
-    unknown(tool > 0 ? fmt::format("milling by T{}", tool) : "milling",
-            "Driven tools are not reviewed: their time counts, and the stock stays as it "
-            "is.");
+    unknown(
+        tool > 0 ? say("milling by T{}", tool) : tr("milling"),
+        tr("Driven tools are not reviewed: their time counts, and the stock stays as it "
+           "is."));
   std::optional<Point> from;
   if (x_mm && z_mm) from = Point{*x_mm, *z_mm};
   if (runs.empty() || !same_conditions(runs.back().step, step)) runs.push_back({step});
@@ -125,9 +125,8 @@ void ModalState::break_corner(const Move& next) {
                    : &program.runs.back().moves.back();
   const auto straight = [](const Move& m) { return m.kind == Move::Kind::feed; };
   const auto refuse = [&] {
-    unknown(
-        "a chamfer or rounding",
-        "It is followed between straight cuts that are long enough, and left out here.");
+    unknown(tr("a chamfer or rounding"), tr("It is followed between straight cuts that "
+                                            "are long enough, and left out here."));
   };
   if (!last || !last->from || !x_mm || !z_mm || !straight(last->to) || !straight(next) ||
       last->to.x_mm != *x_mm || last->to.z_mm != *z_mm)
@@ -164,19 +163,19 @@ void ModalState::to(Move move) {
   if (corner.size_mm > 0) break_corner(move);
   if (++moves_ > moves_max_) return;
   if (!(std::abs(move.x_mm) <= kFarthest_mm && std::abs(move.z_mm) <= kFarthest_mm)) {
-    unknown("coordinates beyond 100 m", "No machine goes there.");
+    unknown(tr("coordinates beyond 100 m"), tr("No machine goes there."));
     return lose_place();
   }
   if (!suspended.empty()) {
-    if (feeds) unknown("a cut", suspended);
+    if (feeds) unknown(tr("a cut"), suspended);
   } else if (milling.on) {
     mill(move);
     milling.y_mm = move.y_mm;
   } else if (feeds && !turning) {
-    unknown("a cut with the spindle at rest", "No M3 or M4 is in force.");
+    unknown(tr("a cut with the spindle at rest"), tr("No M3 or M4 is in force."));
   } else if (feeds && !(F >= kLeastFeed && S >= kLeastSpeed)) {
-    unknown("a cut",
-            F >= kLeastFeed ? "No spindle speed is given." : "No feed is given.");
+    unknown(tr("a cut"),
+            F >= kLeastFeed ? tr("No spindle speed is given.") : tr("No feed is given."));
   } else {
     append(move, 0);
   }
@@ -194,8 +193,8 @@ void ModalState::straight(Move::Kind kind, std::optional<double> x,
     return to(move);
   }
   if (kind != Move::Kind::rapid)
-    unknown("a cut from a place that is not known",
-            "It is not followed: X or Z was not given before it.");
+    unknown(tr("a cut from a place that is not known"),
+            tr("It is not followed: X or Z was not given before it."));
   x_mm = x;
   z_mm = z;
 }
@@ -203,9 +202,9 @@ void ModalState::straight(Move::Kind kind, std::optional<double> x,
 void ModalState::thread(double x, double z, double lead_mm) {
   if (++moves_ > moves_max_) return;
   if (!suspended.empty())
-    unknown("a thread", suspended);
+    unknown(tr("a thread"), suspended);
   else if (!(lead_mm >= kLeastFeed && S >= kLeastSpeed) || !turning)
-    unknown("a thread", "Its lead or the spindle speed is not given.");
+    unknown(tr("a thread"), tr("Its lead or the spindle speed is not given."));
   else
     append({Move::Kind::thread, x, z}, lead_mm);
   x_mm = x;

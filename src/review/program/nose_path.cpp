@@ -7,6 +7,7 @@
 
 #include "modal_state.hpp"
 #include "plane.hpp"
+#include "turnwright/base/language.hpp"
 
 namespace turnwright::review {
 namespace {
@@ -109,7 +110,7 @@ class Contoured {
       p.ends = unit(between(from, to));
       p.to = beside(to, p.ends);
       if (m.to.kind == Kind::arc)
-        tell(m, "Compensation begins with an arc, which is taken as straight.");
+        tell(m, tr("Compensation begins with an arc, which is taken as straight."));
       pieces_.push_back(p);
       return;
     }
@@ -128,7 +129,7 @@ class Contoured {
     if (p.arc && right_ * (p.clockwise ? 1 : -1) > 0 &&
         length(between(p.centre, from)) < nose_.radius_mm - kSame_mm) {
       p.lost = true;
-      tell(m, "An arc is smaller than the tool's nose; it is left out.");
+      tell(m, tr("An arc is smaller than the tool's nose; it is left out."));
     }
     join(p);
     pieces_.push_back(p);
@@ -169,8 +170,8 @@ class Contoured {
     const double r = nose_.radius_mm;
     return {centre.h_mm + (nose_.inner ? r : -r), centre.z_mm - r};  // Eq. (1)
   }
-  void tell(const ReadMove& m, const char* why) {
-    list(out_.unknown, {m.line, "tool nose radius compensation", why});
+  void tell(const ReadMove& m, const std::string& why) {
+    list(out_.unknown, {m.line, tr("tool nose radius compensation"), why});
   }
 
   // Joins a piece to the one before, the first of which only leads to its beginning.
@@ -187,7 +188,8 @@ class Contoured {
       last.to = next.from = *p;
       return;
     }
-    tell(next.move, "The tool's nose does not fit a corner; it is cut straight across.");
+    tell(next.move,
+         tr("The tool's nose does not fit a corner; it is cut straight across."));
     link(last, next);
   }
   void around(const Piece& last, const Piece& next) {
@@ -252,8 +254,8 @@ class Compensation {
     if (nose && m.nose.radius_mm > 0) nose->radius_mm = m.nose.radius_mm;
     if (!nose || !(nose->radius_mm > 0)) return plain(from, run);
     if (m.to.kind == Kind::thread) {
-      list(out_.unknown,
-           {m.line, "tool nose radius compensation", "Threads are cut without it."});
+      list(out_.unknown, {m.line, tr("tool nose radius compensation"),
+                          tr("Threads are cut without it.")});
       return plain(from, run);
     }
     side_ = m.nose.side;

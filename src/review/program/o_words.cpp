@@ -8,6 +8,7 @@
 
 #include "expression.hpp"
 #include "letters.hpp"
+#include "turnwright/base/language.hpp"
 
 namespace turnwright::review {
 namespace {
@@ -118,7 +119,7 @@ void OWords::tie(std::size_t i) {
 
 const OWords::Line& OWords::tied(std::size_t i) const {
   if (i == kNone || all_[i].last == kNone)
-    throw NotFollowed("The O word's other end is not in the text.");
+    throw NotFollowed(tr("The O word's other end is not in the text."));
   return all_[i];
 }
 
@@ -208,7 +209,8 @@ void OWords::call(Flow& flow, const Line& line) const {
     label = fmt::format("{:.0f}", number);
   }
   const auto sub = subroutines_.find(label);
-  if (sub == subroutines_.end()) throw NotFollowed("The subprogram is not in the text.");
+  if (sub == subroutines_.end())
+    throw NotFollowed(tr("The subprogram is not in the text."));
   std::map<int, double> arguments;
   auto rest = line.rest;
   for (int n = 1; !rest.empty(); ++n) {
@@ -223,7 +225,7 @@ void OWords::back(Flow& flow, const Line& line) const {
   std::size_t end = 0;
   if (!line.rest.empty())
     flow.parameters.set("_value", bracketed_value(line.rest, flow.parameters, end));
-  if (!flow.leave()) throw NotFollowed("There is no subroutine to come back from.");
+  if (!flow.leave()) throw NotFollowed(tr("There is no subroutine to come back from."));
 }
 
 void OWords::leave_loop(Flow& flow, const Line& line) const {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "turnwright/base/language.hpp"
+
 namespace turnwright::review {
 namespace {
 
@@ -21,7 +23,7 @@ void copy_turn(ModalState& s, const Contour& contour, const ContourCycle& c,
   const Point last{first.x_mm + c.left_x_mm, first.z_mm + c.left_z_mm};
   const double whole = across ? start.z_mm - last.z_mm : start.h_mm - last.h_mm;
   const double n = std::ceil(std::abs(whole) / c.depth_mm - 1e-9);
-  if (!(n <= kMostLapPasses)) return s.unknown("G86", "It has more than 500 passes.");
+  if (!(n <= kMostLapPasses)) return s.unknown("G86", tr("It has more than 500 passes."));
   for (double pass = 1; pass <= std::max(n, 1.0); ++pass) {
     // Eq. (1): what is left of the way along both axes.
     const double share = pass < n ? 1 - pass * c.depth_mm / std::abs(whole) : 0;
@@ -40,7 +42,8 @@ void lap_cycle(ModalState& s, int code, const Block& block, const Contour& conto
     return s.mm(block.value(name).value_or(0));
   };
   if (!s.x_mm || !s.z_mm || contour.runs.empty() || contour.runs.front().moves.empty())
-    return s.unknown("a LAP cycle", "Its contour or the tool's place is not known.");
+    return s.unknown(tr("a LAP cycle"),
+                     tr("Its contour or the tool's place is not known."));
   const Point start{*s.x_mm, *s.z_mm};
   ContourCycle c{.name = code == 85 ? "G85" : "G86",
                  .depth_mm = value("D") / (direction == RoughingAlong::z ? 2 : 1),
@@ -49,11 +52,11 @@ void lap_cycle(ModalState& s, int code, const Block& block, const Contour& conto
                  .left_z_mm = value("W"),
                  .comes_back = false};
   if (code != 87 && !(c.depth_mm > 0))
-    return s.unknown(c.name, "Its depth D is missing.");
+    return s.unknown(c.name, tr("Its depth D is missing."));
   const auto nose = s.nose;
   if (code != 87) s.nose = {};  // roughing
   if (code == 85) {
-    s.assume("The clearance of LAP is a parameter of the control, here 0.5 mm.");
+    s.assume(tr("The clearance of LAP is a parameter of the control, here 0.5 mm."));
     rough(s, contour, c, direction);
   } else if (code == 86) {
     copy_turn(s, contour, c, direction);

@@ -4,6 +4,7 @@
 
 #include "expression.hpp"
 #include "letters.hpp"
+#include "turnwright/base/language.hpp"
 
 namespace turnwright::review {
 namespace {
@@ -12,7 +13,7 @@ constexpr std::string_view kWords[] = {"if", "goto", "call", "rts", "modin", "mo
 
 void go_to(Flow& flow, std::string_view text) {
   const auto line = flow.block(label_at_front(text, Language::okuma));
-  if (!line) throw NotFollowed("There is no block of this name.");
+  if (!line) throw NotFollowed(tr("There is no block of this name."));
   flow.go_to(*line);
 }
 
@@ -25,7 +26,7 @@ void branch(Flow& flow, std::string_view rest) {
 // "CALL O100 Q2 LA=3": Q times, with values for variables of its own.
 void call(Flow& flow, std::string_view rest) {
   if (rest.empty() || capital(rest.front()) != 'O')
-    throw NotFollowed("The subprogram has no name.");
+    throw NotFollowed(tr("The subprogram has no name."));
   const auto name = label_at_front(rest, Language::okuma);
   auto block = block_of(name_at_front(rest).second, Language::okuma);
   std::vector<std::pair<std::string, double>> values;
@@ -39,10 +40,10 @@ void call(Flow& flow, std::string_view rest) {
     else if (w.name.size() > 1 && w.text.find('=') != w.text.npos)
       values.emplace_back(w.name, value);
     else
-      throw NotFollowed("Behind a call Q and values of variables are followed.");
+      throw NotFollowed(tr("Behind a call Q and values of variables are followed."));
   }
   if (!block.rest.empty() || !block.assignments.empty())
-    throw NotFollowed("Behind a call Q and values of variables are followed.");
+    throw NotFollowed(tr("Behind a call Q and values of variables are followed."));
   if (!flow.call_named(name, times)) return;
   for (const auto& [variable, value] : values)
     set_variable(flow.parameters, variable, value);
@@ -76,9 +77,9 @@ bool OkumaStatements::direct(Flow& flow) const {
   else if (word == "call")
     call(flow, rest);
   else if (word != "rts")
-    throw NotFollowed("Calls after each block are not followed.");
+    throw NotFollowed(tr("Calls after each block are not followed."));
   else if (!flow.leave())
-    throw NotFollowed("There is no subprogram to leave.");
+    throw NotFollowed(tr("There is no subprogram to leave."));
   return true;
 }
 

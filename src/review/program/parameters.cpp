@@ -1,9 +1,9 @@
 #include "parameters.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <string_view>
+
+#include "base/say.hpp"
 
 namespace turnwright::review {
 namespace {
@@ -45,8 +45,7 @@ Language language_of(gcode::Control control) {
 int Parameters::number_of(double number) const {
   const double whole = std::round(number);
   if (!(std::abs(number - whole) <= kWhole && whole >= 0 && whole <= kLargestNumber))
-    throw NotFollowed(
-        fmt::format("There is no variable {}{:g}.", own_letter(language_), number));
+    throw NotFollowed(say("There is no variable {}{:g}.", own_letter(language_), number));
   return static_cast<int>(whole);
 }
 
@@ -63,8 +62,8 @@ Value Parameters::at(double number) const {
   if (set != numbered_.end()) return set->second;
   if (linuxcnc() && n > 0 && n <= kLinuxCncUsers) return 0;
   throw NotFollowed(
-      fmt::format("The value of {}{} is the control's, the program does not tell it.",
-                  own_letter(language_), n));
+      say("The value of {}{} is the control's, the program does not tell it.",
+          own_letter(language_), n));
 }
 
 std::optional<double> Parameters::find(const std::string& name) const {
@@ -80,8 +79,8 @@ std::optional<double> Parameters::find(const std::string& name) const {
 double Parameters::at(const std::string& name) const {
   const auto value = find(name);
   if (!value)
-    throw NotFollowed(fmt::format("The program does not tell the value of {}.",
-                                  linuxcnc() ? "#<" + name + ">" : name));
+    throw NotFollowed(say("The program does not tell the value of {}.",
+                          linuxcnc() ? "#<" + name + ">" : name));
   return *value;
 }
 
@@ -105,8 +104,7 @@ bool Parameters::common(const std::string& name) const {
   if (language_ != Language::okuma || !name.starts_with('v')) return false;
   const bool users = name.size() > 2 && name.starts_with("vc") &&
                      name.find_first_not_of("0123456789", 2) == name.npos;
-  if (!users)
-    throw NotFollowed(fmt::format("{} is a variable of the control's own.", name));
+  if (!users) throw NotFollowed(say("{} is a variable of the control's own.", name));
   return true;
 }
 
@@ -117,15 +115,15 @@ void Parameters::set(double number, Value value) {
     return;
   }
   if (!of_program(n))
-    throw NotFollowed(fmt::format("What the control does when {}{} is set is not known.",
-                                  own_letter(language_), n));
+    throw NotFollowed(say("What the control does when {}{} is set is not known.",
+                          own_letter(language_), n));
   numbered_[n] = value;
 }
 
 void Parameters::set(const std::string& name, double value) {
   auto& all = common(name) ? named_ : locals_.back().named;
   if (all.size() >= kNames && !all.contains(name))
-    throw NotFollowed("The program has more than 1000 named variables.");
+    throw NotFollowed(tr("The program has more than 1000 named variables."));
   const auto declared = locals_.back().declared.find(array_of(name));
   const bool whole = declared != locals_.back().declared.end() && declared->second;
   all[name] = whole ? std::round(value) : value;
@@ -134,7 +132,7 @@ void Parameters::set(const std::string& name, double value) {
 void Parameters::declare(const std::string& name, bool whole) {
   auto& all = locals_.back().declared;
   if (all.size() >= kNames)
-    throw NotFollowed("The program has more than 1000 named variables.");
+    throw NotFollowed(tr("The program has more than 1000 named variables."));
   all[array_of(name)] = whole;
 }
 

@@ -8,6 +8,7 @@
 #include <memory>
 #include <utility>
 
+#include "base/say.hpp"
 #include "contour_cycle.hpp"
 #include "cycles.hpp"
 #include "drill_cycle_reader.hpp"
@@ -116,11 +117,12 @@ class ProgramReader {
   TurningProgram result() {
     s_.line = flow_.line() + 1;
     if (s_.full())
-      s_.unknown("the rest of the program", "It has more moves than are followed.");
+      s_.unknown(tr("the rest of the program"),
+                 tr("It has more moves than are followed."));
     else if (flow_.endless() && !ended_)
       s_.unknown(
-          "the rest of the program",
-          "More lines would be executed than are followed; its loops may not end.");
+          tr("the rest of the program"),
+          tr("More lines would be executed than are followed; its loops may not end."));
     return std::move(s_.program);
   }
 
@@ -154,7 +156,7 @@ class ProgramReader {
   }
 
   void not_followed(std::string_view text, const std::string& why) {
-    s_.unknown(trimmed(text), why + " The block may have moved the tool.");
+    s_.unknown(trimmed(text), say("{} The block may have moved the tool.", why));
     s_.lose_place();
   }
 
@@ -168,7 +170,7 @@ class ProgramReader {
                           : std::string();
     if (unreadable(block)) return;
     if (block.deletable && !block.words.empty())
-      s_.assume("Blocks with a slash are taken as executed.");
+      s_.assume(tr("Blocks with a slash are taken as executed."));
     evaluate(block, flow_.parameters);
     take(block);
     if (!call.empty()) siemens_cycle(call);
@@ -203,12 +205,14 @@ class ProgramReader {
     if (siemens_) return siemens_directs(text);
     if (okuma_ && !in_contour_) return okuma_->direct(flow_);
     if (okuma_ && OkumaStatements::is_directing(text))
-      throw NotFollowed("Branches and loops in the contour of a cycle are not followed.");
+      throw NotFollowed(
+          tr("Branches and loops in the contour of a cycle are not followed."));
     if (!o_words_ && !macros_) return false;
     if (!in_contour_) return o_words_ ? o_words_->direct(flow_) : macros_->direct(flow_);
     const auto word = keyword_of(statement_of(text)).first;
     if (word == "IF" || word == "WHILE" || word == "GOTO")
-      throw NotFollowed("Branches and loops in the contour of a cycle are not followed.");
+      throw NotFollowed(
+          tr("Branches and loops in the contour of a cycle are not followed."));
     return false;
   }
 
@@ -216,7 +220,8 @@ class ProgramReader {
     if (!in_contour_) return siemens_->direct(flow_);
     const auto word = name_at_front(siemens_statement_of(text)).first;
     if (SiemensStatements::is_directing(text))
-      throw NotFollowed("Branches and loops in the contour of a cycle are not followed.");
+      throw NotFollowed(
+          tr("Branches and loops in the contour of a cycle are not followed."));
     if (word == "ret") ended_ = true;
     return word == "ret" || word == "proc" || word == "def" || word == "extern";
   }
@@ -224,7 +229,7 @@ class ProgramReader {
   bool unreadable(const Block& block) {
     if (block.rest.empty()) return false;
     s_.unknown(trimmed(block.rest),
-               "What stands here is not known; the block may have moved the tool.");
+               tr("What stands here is not known; the block may have moved the tool."));
     s_.lose_place();
     return true;
   }
@@ -334,7 +339,7 @@ class ProgramReader {
       s_.suspended.clear();
       s_.lose_place();
     } else if (std::abs(value - 91.1) > 1e-6 && std::abs(value - 7.1) > 1e-6) {
-      s_.unknown(fmt::format("G{}", value), "The code is not known.");
+      s_.unknown(fmt::format("G{}", value), tr("The code is not known."));
     }
   }
 
@@ -371,13 +376,13 @@ class ProgramReader {
       return true;
     }
     if (limit || g == 10 || g == 52) {
-      s_.suspended = fmt::format("G{} shifts the zero, which is not followed.", g);
+      s_.suspended = say("G{} shifts the zero, which is not followed.", g);
       special_ = Special::done;
       return true;
     }
     if (g >= 54 && g <= 59) {
       if (work_offset_ != 0 && work_offset_ != g)
-        s_.suspended = "Another work offset, whose zero is not known.";
+        s_.suspended = tr("Another work offset, whose zero is not known.");
       else
         s_.suspended.clear();
       if (work_offset_ == 0) work_offset_ = g;
@@ -394,10 +399,10 @@ class ProgramReader {
   void strange(int g, bool names_a_place) {
     const auto name = fmt::format("G{}", g);
     const bool cycle = (g >= 70 && g <= 89) || g == 32 || g == 33;
-    s_.unknown(name, cycle ? "The cycle is not followed."
+    s_.unknown(name, cycle ? tr("The cycle is not followed.")
                      : names_a_place
-                         ? "The code is not known; the block may have moved the tool."
-                         : "The code is not known.");
+                         ? tr("The code is not known; the block may have moved the tool.")
+                         : tr("The code is not known."));
     if (!cycle && !names_a_place) return;
     s_.lose_place();
     special_ = Special::done;
@@ -448,12 +453,12 @@ class ProgramReader {
     else if (w.name.size() == 1 && !(s_.milling.on && (w.name == "C" || w.name == "Y")) &&
              !(w.name == "Y" && value == 0 && motion_ == 0) &&
              std::string_view("ABCVY").find(w.name) != std::string_view::npos)
-      s_.unknown(w.text, "Only the axes X and Z are followed.");
+      s_.unknown(w.text, tr("Only the axes X and Z are followed."));
     if (w.name == "E" && special_ == Special::none && motion_ < 4)
       s_.unknown(
           w.text,
-          "The letter belongs to threads; a number before it ends there, it has no "
-          "exponent.");
+          tr("The letter belongs to threads; a number before it ends there, it has no "
+             "exponent."));
   }
 
   // Words of several letters that leave the place as it is or belong to another one.
@@ -465,7 +470,7 @@ class ProgramReader {
     return std::ranges::find(kIdleNames, name) != std::end(kIdleNames);
   }
   void strange_word(const Word& w) {
-    s_.unknown(w.text, "The word is not known; the block may have moved the tool.");
+    s_.unknown(w.text, tr("The word is not known; the block may have moved the tool."));
     s_.lose_place();
     special_ = Special::done;
   }
@@ -475,7 +480,7 @@ class ProgramReader {
     for (const auto& w : block.words)
       if (w.name != "G" && w.name != "M" && block.find(w.name) != &w)
         s_.unknown(w.text,
-                   "The letter stands twice in the block, which controls refuse.");
+                   tr("The letter stands twice in the block, which controls refuse."));
   }
 
   void feed(double value) {
@@ -512,7 +517,7 @@ class ProgramReader {
     if ((m == 3 || m == 4) && driven_here_) s_.milling.on = true, s_.turning = false;
     if ((m == 3 || m == 4) && !driven_here_) s_.turning = true;
     if (m == 6) s_.tool = s_.chosen_tool;
-    if (m == 198) s_.unknown(text, "The subprogram is not in the text.");
+    if (m == 198) s_.unknown(text, tr("The subprogram is not in the text."));
   }
 
   // Codes that act after the motion of their block.
@@ -523,7 +528,7 @@ class ProgramReader {
     if (siemens_end && !in_contour_ && flow_.leave_program()) return;
     if (m == 2 || m == 30 || siemens_end) ended_ = true;
     if (m < 97 || m > 99 || !(o_words_ || macros_)) return;
-    if (in_contour_) throw NotFollowed("The contour of a cycle has no calls.");
+    if (in_contour_) throw NotFollowed(tr("The contour of a cycle has no calls."));
     if (m == 99)
       back(block);
     else
@@ -533,7 +538,7 @@ class ProgramReader {
   // M98 P1000 L2, of Fanuc also P21000; M97 P100 L2 of Haas, of blocks.
   void call(const Block& block, bool blocks) {
     const auto P = block.value("P");
-    if (!P) throw NotFollowed("The subprogram has no number.");
+    if (!P) throw NotFollowed(tr("The subprogram has no number."));
     double number = *P, times = block.value("L").value_or(1);
     if (blocks) return flow_.call_blocks(number, times);
     if (number > kLargestProgram && !flow_.has_program(number) && !block.find("L")) {
@@ -545,14 +550,14 @@ class ProgramReader {
 
   void back(const Block& block) {
     if (flow_.leave(block.value("P"))) return;
-    s_.assume("M99 at the end of the program is taken as its end.");
+    s_.assume(tr("M99 at the end of the program is taken as its end."));
     ended_ = true;
   }
 
   void macro(const Block& block) {
     const auto P = block.value("P");
-    if (!P) throw NotFollowed("The macro has no number.");
-    if (in_contour_) throw NotFollowed("The contour of a cycle has no calls.");
+    if (!P) throw NotFollowed(tr("The macro has no number."));
+    if (in_contour_) throw NotFollowed(tr("The contour of a cycle has no calls."));
     flow_.call_macro(*P, block.value("L").value_or(1), macro_arguments(block));
   }
 
@@ -560,15 +565,16 @@ class ProgramReader {
   // G67, each time with the same arguments.
   void begin_modal_macro(const Block& block) {
     const auto P = block.value("P");
-    if (!P) throw NotFollowed("The macro has no number.");
-    if (modal_macro_) throw NotFollowed("One G66 in another is not followed.");
-    if (!flow_.has_program(*P)) throw NotFollowed("The subprogram is not in the text.");
+    if (!P) throw NotFollowed(tr("The macro has no number."));
+    if (modal_macro_) throw NotFollowed(tr("One G66 in another is not followed."));
+    if (!flow_.has_program(*P))
+      throw NotFollowed(tr("The subprogram is not in the text."));
     modal_macro_ = {*P, block.value("L").value_or(1), macro_arguments(block),
                     flow_.depth()};
   }
   void call_modal_macro() {
     if (!modal_macro_ || modal_macro_->depth != flow_.depth()) return;
-    if (in_contour_) throw NotFollowed("The contour of a cycle has no calls.");
+    if (in_contour_) throw NotFollowed(tr("The contour of a cycle has no calls."));
     const auto& m = *modal_macro_;
     flow_.call_macro(m.number, m.times, m.arguments);
   }
@@ -583,7 +589,7 @@ class ProgramReader {
       const auto v = block.value(name);
       if (!v) return std::nullopt;
       if (words_.point && !block.find(name)->point)
-        s_.assume("Numbers without a point are millimetres or inches, not steps.");
+        s_.assume(tr("Numbers without a point are millimetres or inches, not steps."));
       using Meant = Word::Meant;
       const auto meant = block.find(name)->meant;
       if (meant == Meant::absolute || (meant == Meant::by_mode && !s_.incremental))
@@ -631,8 +637,8 @@ class ProgramReader {
     }
     if (drills()) return drilling_.take(s_, control_, motion_, block, t.x, t.z);
     if (!s_.x_mm || !s_.z_mm) {
-      s_.unknown("a cut from a place that is not known",
-                 "It is not followed: X or Z was not given before it.");
+      s_.unknown(tr("a cut from a place that is not known"),
+                 tr("It is not followed: X or Z was not given before it."));
       return s_.straight(Move::Kind::rapid, t.x, t.z);
     }
     const bool plain = (motion_ == 32 || motion_ == 33) && !words_.thread_returns;
@@ -666,7 +672,8 @@ class ProgramReader {
     const bool own_words = words_.lead == 'K';
     const double lead = s_.mm(block.value(own_words ? "K" : "F").value_or(0));
     if (!t.z || !s_.z_mm)
-      return s_.unknown("a tap that is not followed", "Z was not given before or in it.");
+      return s_.unknown(tr("a tap that is not followed"),
+                        tr("Z was not given before or in it."));
     if (control_ == Control::siemens && s_.x_mm) return s_.thread(*s_.x_mm, *t.z, lead);
     const double R = s_.mm(block.value("R").value_or(0));
     const bool absolute = control_ == Control::haas && block.find("R");
@@ -676,7 +683,7 @@ class ProgramReader {
   // G90, G92 and G94 of system A.
   void box(const Block& block, double x, double z) {
     if (block.value("R").value_or(0) != 0)
-      s_.unknown("R of a cycle", "Its taper is not followed.");
+      s_.unknown(tr("R of a cycle"), tr("Its taper is not followed."));
     if (block.find("F") && motion_ == 92) lead_mm_ = s_.mm(*block.value("F"));
     box_cycle(s_,
               motion_ == 90   ? Box::turning
@@ -716,7 +723,8 @@ class ProgramReader {
     };
     if (!centre || !(radius(from) > 0) ||
         !(std::abs(radius(from) - radius(to)) <= kRadii_mm)) {
-      s_.unknown("an arc whose ends do not fit its centre", "It is taken as straight.");
+      s_.unknown(tr("an arc whose ends do not fit its centre"),
+                 tr("It is taken as straight."));
       return s_.straight(Move::Kind::feed, to.h_mm, to.z_mm);
     }
     s_.to({Move::Kind::arc, to.h_mm, to.z_mm, *centre, clockwise});
@@ -736,11 +744,12 @@ class ProgramReader {
   void subroutine_cycle(const Block& block) {
     const auto Q = block.value("Q");
     const auto lines = Q ? o_words_->subroutine(*Q) : std::nullopt;
-    if (!lines) throw NotFollowed("The subroutine of its contour is not in the text.");
+    if (!lines)
+      throw NotFollowed(tr("The subroutine of its contour is not in the text."));
     const auto t = target(block);
     s_.straight(Move::Kind::rapid, t.x, t.z);
     const auto contour = contour_of_lines(lines->first + 1, lines->second - 1);
-    if (!contour) throw NotFollowed("The contour of a cycle has no cycles.");
+    if (!contour) throw NotFollowed(tr("The contour of a cycle has no cycles."));
     g7x_cycle(s_, cycle_code_, block, *contour);
   }
 
@@ -750,7 +759,7 @@ class ProgramReader {
     const auto end = okuma_->end_of_contour(flow_.line());
     if (defines && in_contour_) return;  // its first line
     if (defines) {
-      if (!end) throw NotFollowed("The definition of the contour has no end.");
+      if (!end) throw NotFollowed(tr("The definition of the contour has no end."));
       return flow_.go_to(*end + 1);
     }
     const auto label = label_in(block);
@@ -758,12 +767,13 @@ class ProgramReader {
     const auto last = begins ? okuma_->end_of_contour(*begins) : std::nullopt;
     if (!last || *last <= *begins || cycle_code_ == 84 || cycle_code_ == 88)
       throw NotFollowed(
-          "G85, G86 and G87 of a contour between G81 or G82 and G80 are followed.");
+          tr("G85, G86 and G87 of a contour between G81 or G82 and G80 are followed."));
     const auto first = block_of(flow_.lines()[*begins], Language::okuma).value("G");
     if (first != 81 && first != 82)
-      throw NotFollowed("Contours that G81 or G82 begins are followed, without a blank.");
+      throw NotFollowed(
+          tr("Contours that G81 or G82 begins are followed, without a blank."));
     const auto contour = contour_of_lines(*begins, *last - 1);
-    if (!contour) throw NotFollowed("The contour of a cycle has no cycles.");
+    if (!contour) throw NotFollowed(tr("The contour of a cycle has no cycles."));
     lap_cycle(s_, cycle_code_, block, *contour,
               first == 81 ? RoughingAlong::z : RoughingAlong::x);
   }
@@ -774,9 +784,9 @@ class ProgramReader {
     for (const auto& w : block.words)
       if (std::string_view("GNXZDFSTM").find(w.name.front()) == std::string_view::npos ||
           w.name.size() > 1)
-        throw NotFollowed("Only X, Z, D and F of G74 are followed.");
+        throw NotFollowed(tr("Only X, Z, D and F of G74 are followed."));
     if (t.x && t.x != s_.x_mm) s_.straight(Move::Kind::rapid, t.x, s_.z_mm);
-    if (!t.z || !s_.z_mm) throw NotFollowed("Z was not given before or in it.");
+    if (!t.z || !s_.z_mm) throw NotFollowed(tr("Z was not given before or in it."));
     const double depth = std::abs(*t.z - *s_.z_mm);
     const double peck = s_.mm(block.value("D").value_or(0));
     DrillCycle d{.from_z_mm = *s_.z_mm, .away_z_mm = *s_.z_mm};
@@ -785,8 +795,8 @@ class ProgramReader {
     d.clears = false;
     d.retract_mm = kOkumaBack_mm;
     if (d.strokes_z_mm.size() > 1)
-      s_.assume(
-          "G74 comes back after each peck by a parameter of the control, here 0.5 mm.");
+      s_.assume(tr(
+          "G74 comes back after each peck by a parameter of the control, here 0.5 mm."));
     drill_cycle(s_, d);
   }
 

@@ -8,6 +8,7 @@
 #include "cycles.hpp"
 #include "expression.hpp"
 #include "siemens_statements.hpp"
+#include "turnwright/base/language.hpp"
 
 namespace turnwright::review {
 namespace {
@@ -124,10 +125,10 @@ void stock_removal(ModalState& s, const Call& c,
   if (name.size() > 1 && name.starts_with('"') && name.ends_with('"'))
     name = name.substr(1, name.size() - 2);
   const auto contour = contour_of(name);
-  if (!contour) throw NotFollowed("The contour of CYCLE95 is not in the text.");
+  if (!contour) throw NotFollowed(tr("The contour of CYCLE95 is not in the text."));
   const double kind = std::fmod(c.at(9), 100);
   if (!(kind >= 1 && kind <= 12 && kind == std::floor(kind)))
-    throw NotFollowed("CYCLE95 has the kinds 1 to 12.");
+    throw NotFollowed(tr("CYCLE95 has the kinds 1 to 12."));
   const int what = static_cast<int>(kind) - 1;
   StockRemoval r;
   r.depth_mm = s.mm(c.at(2));
@@ -152,7 +153,7 @@ void thread(ModalState& s, const Call& c) {
       !(cuts >= 0 && idle >= 0 && (cuts + idle + 1) * starts <= kMostThreadCuts) ||
       !(kind >= 1 && kind <= 4))
     throw NotFollowed(
-        "CYCLE97 is followed with PIT, up to 200 cuts and the kinds 1 to 4.");
+        tr("CYCLE97 is followed with PIT, up to 200 cuts and the kinds 1 to 4."));
   const double begin = s.mm(c.at(3)), end = s.mm(c.at(4));
   const double leftwards = end < begin ? -1 : 1;
   const double z0 = begin - leftwards * s.mm(c.at(7)),

@@ -5,6 +5,7 @@
 
 #include "expression.hpp"
 #include "letters.hpp"
+#include "turnwright/base/language.hpp"
 
 namespace turnwright::review {
 namespace {
@@ -67,7 +68,7 @@ void jump(Flow& flow, std::string_view text) {
   const auto line = word == "gotof"   ? flow.block_ahead(label)
                     : word == "gotob" ? flow.block_behind(label)
                                       : flow.block(label);
-  if (!line) throw NotFollowed("There is no such label that way.");
+  if (!line) throw NotFollowed(tr("There is no such label that way."));
   flow.go_to(*line);
 }
 
@@ -76,7 +77,7 @@ double times_of(std::string_view text, const Parameters& parameters) {
   text = trimmed_blanks(text);
   if (text.empty()) return 1;
   if (capital(text.front()) != 'P')
-    throw NotFollowed("Behind what is repeated or called only P is followed.");
+    throw NotFollowed(tr("Behind what is repeated or called only P is followed."));
   text = trimmed_blanks(text.substr(1));
   if (text.starts_with('=')) text.remove_prefix(1);
   return value_of(text, parameters).value_or(1);
@@ -95,14 +96,14 @@ void repeat_lines(Flow& flow, std::string_view rest, bool one_block) {
     rest = behind;
   }
   if (labels.empty() || labels.size() > 2)
-    throw NotFollowed("One label or two are followed.");
+    throw NotFollowed(tr("One label or two are followed."));
   const double times = times_of(rest, flow.parameters);
   const auto find = [&flow](const std::string& label) {
     const auto line = flow.block_behind(label);
     return line ? line : flow.block(label);
   };
   const auto first = find(labels.front());
-  if (!first) throw NotFollowed("There is no such label.");
+  if (!first) throw NotFollowed(tr("There is no such label."));
   if (one_block) return flow.repeat(*first, *first, times);
   std::optional<std::size_t> last;
   if (labels.size() == 2)
@@ -110,7 +111,7 @@ void repeat_lines(Flow& flow, std::string_view rest, bool one_block) {
   else
     last = flow.block_between("endlabel", *first, flow.line());
   if (!last && *first < flow.line()) last = flow.line() - 1;
-  if (!last || *last < *first) throw NotFollowed("The section has no end.");
+  if (!last || *last < *first) throw NotFollowed(tr("The section has no end."));
   flow.repeat(*first, *last, times);
 }
 
@@ -155,10 +156,10 @@ void define(Flow& flow, std::string_view rest) {
     const auto d = declared_in(text, type);
     type = d.type;
     if (d.name.empty() || type.empty())
-      throw NotFollowed("A type and names are followed behind DEF.");
+      throw NotFollowed(tr("A type and names are followed behind DEF."));
     if (!counts(type)) continue;
     if (!d.index.empty() && !d.value.empty())
-      throw NotFollowed("Arrays are followed without first values.");
+      throw NotFollowed(tr("Arrays are followed without first values."));
     declare(flow.parameters, d,
             d.value.empty() ? 0 : value_of(d.value, flow.parameters).value_or(0));
   }
@@ -173,7 +174,7 @@ void call(Flow& flow, const std::string& name, std::string_view rest) {
   }
   const double times = times_of(rest, flow.parameters);
   const auto begin = flow.program(name);
-  if (!begin) throw NotFollowed("The subprogram is not in the text.");
+  if (!begin) throw NotFollowed(tr("The subprogram is not in the text."));
   std::string_view head;
   for (auto i = *begin; i < flow.end_of_program(*begin) && i < *begin + 5; ++i) {
     const auto [word, behind] = name_at_front(siemens_statement_of(flow.lines()[i]));
@@ -186,7 +187,7 @@ void call(Flow& flow, const std::string& name, std::string_view rest) {
       const auto d = declared_in(wanted[i], "");
       if (d.name.empty()) continue;
       if (!counts(d.type))
-        throw NotFollowed("Only REAL, INT and BOOL are followed as values of calls.");
+        throw NotFollowed(tr("Only REAL, INT and BOOL are followed as values of calls."));
       const std::string_view given =
           i < texts.size() && !texts[i].empty() ? texts[i] : d.value;
       values.emplace_back(
@@ -217,7 +218,7 @@ std::vector<std::string> texts_of_arguments(std::string_view bracketed) {
       all.back() += c;
     if (!quoted && (c == '(' || c == '[')) ++depth;
   }
-  throw NotFollowed("The brackets are not closed.");
+  throw NotFollowed(tr("The brackets are not closed."));
 }
 
 SiemensStatements::SiemensStatements(const Flow& flow) {
@@ -248,7 +249,7 @@ void SiemensStatements::tie(std::size_t line, const std::string& word) {
 const SiemensStatements::Part& SiemensStatements::tied(std::size_t line) const {
   const auto found = parts_.find(line);
   if (found == parts_.end() || found->second.last == kNone)
-    throw NotFollowed("The other end of the branch or loop is not in the text.");
+    throw NotFollowed(tr("The other end of the branch or loop is not in the text."));
   return found->second;
 }
 
@@ -294,13 +295,13 @@ bool SiemensStatements::direct(Flow& flow) const {
   if (word == "repeat" || word == "repeatb")
     return repeat_lines(flow, rest, word == "repeatb"), true;
   if (word == "ret") {
-    if (!flow.leave_program()) throw NotFollowed("There is no subprogram to leave.");
+    if (!flow.leave_program()) throw NotFollowed(tr("There is no subprogram to leave."));
     return true;
   }
   if (word == "call") {
     const auto end = rest.find('"', 1);
     if (!rest.starts_with('"') || end == rest.npos)
-      throw NotFollowed("Only CALL \"NAME\" is followed.");
+      throw NotFollowed(tr("Only CALL \"NAME\" is followed."));
     return call(flow, small_letters(rest.substr(1, end - 1)), rest.substr(end + 1)), true;
   }
   const bool numbered = word.size() > 1 && word.front() == 'l' &&
@@ -338,7 +339,8 @@ void SiemensStatements::count(Flow& flow, std::string_view rest, bool begins) co
   const auto to = lower.find(" to ");
   const auto is = rest.find('=');
   if (to == lower.npos || is == rest.npos || is > to)
-    throw NotFollowed("FOR is followed as a variable, \"=\", a value, TO and a value.");
+    throw NotFollowed(
+        tr("FOR is followed as a variable, \"=\", a value, TO and a value."));
   const auto variable = trimmed_blanks(rest.substr(0, is));
   auto& p = flow.parameters;
   const double value = begins ? value_of(rest.substr(is + 1, to - is - 1), p).value_or(0)
