@@ -1,5 +1,5 @@
 # What each domain uses, floor by floor (floors.txt).
-tw_domain(base PRIVATE_LIBS Boost::headers Eigen3::Eigen)
+tw_domain(base PRIVATE_LIBS Boost::headers Eigen3::Eigen fmt::fmt)
 target_include_directories(turnwright_base PUBLIC  # base/say.hpp
   $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>)
 

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "base/say.hpp"
+
 namespace turnwright {
 namespace {
 
@@ -9,8 +11,8 @@ std::string list(const std::string& document, const std::vector<Problem>& proble
   std::string text;
   for (const auto& p : problems) {
     if (!text.empty()) text += '\n';
-    text += visible(document + ": " + (p.pointer.empty() ? "document" : p.pointer) +
-                    ": got " + p.got + ", expected " + p.expected);
+    const auto place = document + ": " + (p.pointer.empty() ? tr("document") : p.pointer);
+    text += visible(say("{}: got {}, expected {}", place, p.got, p.expected));
   }
   return text;
 }

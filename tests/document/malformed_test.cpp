@@ -5,6 +5,7 @@
 #include <fstream>
 #include <iterator>
 #include <random>
+#include <regex>
 #include <set>
 
 #include "document/json/file.hpp"
@@ -12,6 +13,7 @@
 #include "test_catalogue.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/document/prepared_part.hpp"
+#include "turnwright/document/translations.hpp"
 
 namespace turnwright::document::malformed_test {
 namespace {
@@ -49,6 +51,61 @@ TEST(Malformed, EachIsRefusedWithItsExactText) {
     ASSERT_TRUE(fs::exists(expected)) << expected;
     EXPECT_EQ(std::string(refusal(file).what()) + "\n", text_of(expected)) << file;
   }
+}
+
+/// The language is the program's: English again for the tests that follow.
+class MalformedInGerman : public ::testing::Test {
+ protected:
+  void SetUp() override { speak("de", translations(source_path(""), "de")); }
+  void TearDown() override { speak("en", {}); }
+
+  static std::vector<Problem> in_english(const fs::path& file) {
+    speak("en", {});
+    return refusal(file).problems();
+  }
+};
+
+/// Whether a text has the same words in both languages, beside the document's JSON.
+bool stayed(const std::string& german, const std::string& english) {
+  static const std::regex kJson("\"[^\"]*(\"|$)|null|true|false"), kWord("[A-Za-z]{3}");
+  return german == english &&
+         std::regex_search(std::regex_replace(german, kJson, ""), kWord);
+}
+
+/// What makes no arc is a sentence of src/part.
+bool said_by_part(const Problem& p) { return p.pointer.ends_with("/radius_mm"); }
+
+TEST_F(MalformedInGerman, HasThePlacesAndCodesOfEnglishAndOtherWords) {
+  for (const auto& file : malformed_files()) {
+    SetUp();
+    const auto german = refusal(file).problems(), english = in_english(file);
+    ASSERT_EQ(german.size(), english.size()) << file;
+    for (std::size_t i = 0; i < german.size(); ++i) {
+      EXPECT_EQ(german[i].pointer, english[i].pointer) << file;
+      EXPECT_EQ(german[i].code, english[i].code) << file;
+      EXPECT_FALSE(stayed(german[i].got, english[i].got)) << german[i].got;
+      EXPECT_FALSE(stayed(german[i].expected, english[i].expected) &&
+                   !said_by_part(english[i]))
+          << german[i].expected;
+    }
+  }
+}
+
+TEST_F(MalformedInGerman, SpeaksInSentencesWithTheSameValues) {
+  const auto said = [](const char* name) {
+    return std::string(refusal(source_path("tests/data/malformed") / name).what());
+  };
+  EXPECT_EQ(said("005-missing-comma.json"),
+            "part.json: Dokument: gegeben fehlerhaftes JSON in Zeile 4, Spalte 12: zwei "
+            "Einträge oder Werte nebeneinander, erwartet ein Komma dazwischen");
+  EXPECT_EQ(said("031-number-as-text.json"),
+            "part.json: /outer/0/diameter_mm: gegeben \"30\", erwartet eine Zahl > 0 und "
+            "<= 20000 mm");
+  EXPECT_EQ(said("037-misspelt-key.json"),
+            "part.json: /outer/0/diameter_mm: gegeben nichts, erwartet eine Zahl > 0 und "
+            "<= 20000 mm\n"
+            "part.json: /outer/0/diamter_mm: gegeben 30, erwartet kein solcher Schlüssel "
+            "(vielleicht \"diameter_mm\"?)");
 }
 
 TEST(Malformed, APathThatIsNoFileIsRefused) {

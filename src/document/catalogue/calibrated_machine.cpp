@@ -1,5 +1,6 @@
 #include "calibrated_machine.hpp"
 
+#include "base/say.hpp"
 #include "catalogue_readers.hpp"
 
 namespace turnwright::document {
@@ -14,7 +15,7 @@ std::optional<MachineDocument> read_machine_document(Reader& r, const std::strin
   MachineDocument m{machine.json(), lathe.errors ? *lathe.errors : blank_errors(chain)};
   for (const char axis : axes)
     if (m.errors.chain.chain.find(axis) == std::string::npos) {
-      r.problem_at("machine", std::string("a machine whose chain has the axis ") + axis,
+      r.problem_at("machine", say("a machine whose chain has the axis {}", axis),
                    "conflict");
       return {};
     }

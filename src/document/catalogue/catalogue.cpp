@@ -7,6 +7,7 @@
 #include "catalogue_readers.hpp"
 #include "document/json/file.hpp"
 #include "shop.hpp"
+#include "turnwright/base/language.hpp"
 
 namespace turnwright::document {
 namespace {
@@ -35,7 +36,7 @@ auto load_folder(const fs::path& folder, Problems& problems, const Read& read) {
       const bool twice = std::any_of(out.begin(), out.end(), [&](const T& earlier) {
         return !entry.id.empty() && earlier.id == entry.id;
       });
-      if (twice) reader.problem_at("id", "an id no other file has", "duplicate");
+      if (twice) reader.problem_at("id", tr("an id no other file has"), "duplicate");
       out.push_back(std::move(entry));
     } catch (const InputError& error) {
       for (auto problem : error.problems()) {

@@ -3,17 +3,34 @@
 #include "catalogue_readers.hpp"
 #include "document/json/reference.hpp"
 #include "material_names.hpp"
+#include "turnwright/base/language.hpp"
 
 namespace turnwright::document {
 namespace {
 
+/// What is expected of a reference, in English.
+struct Wanted {
+  const char* reference;  ///< or of a document in its place
+  const char* id;
+};
+constexpr Wanted kMaterial{to_translate("the id of a material or its document"),
+                           to_translate("a material of the catalogue")},
+    kMachine{to_translate("the id of a machine or its document"),
+             to_translate("a machine of the catalogue")},
+    kTool{to_translate("the id of a tool or its document"),
+          to_translate("a tool of the catalogue")},
+    kCutter{to_translate("the id of a milling cutter or its document"),
+            to_translate("a milling cutter of the catalogue")},
+    kShop{to_translate("the id of a shop or its document"),
+          to_translate("a shop of the catalogue")};
+
 template <class T, class Read>
 T resolve(const Reader& value, const std::vector<T>& entries, const Read& read,
-          const std::string& what, const std::vector<std::string>& others = {}) {
+          const Wanted& wanted, const std::vector<std::string>& others = {}) {
   if (value.is_object()) return read(value);
   if (value.broken()) return {};
   if (!value.is_text()) {
-    value.problem("the id of a " + what + " or its document", "type");
+    value.problem(tr(wanted.reference), "type");
     return {};
   }
   const auto id = value.json().get<std::string>();
@@ -21,8 +38,7 @@ T resolve(const Reader& value, const std::vector<T>& entries, const Read& read,
     if (entry.id == id) return entry;
   auto known = ids(entries);
   known.insert(known.end(), others.begin(), others.end());
-  value.problem(expected_reference(id, known, "a " + what + " of the catalogue"),
-                "unknown-id");
+  value.problem(expected_reference(id, known, tr(wanted.id)), "unknown-id");
   return {};
 }
 
@@ -38,28 +54,28 @@ catalogue::Material material_of(const Catalogue& catalogue, const Reader& value)
       return {};
     }
   }
-  return resolve(value, catalogue.materials, read_material, "material");
+  return resolve(value, catalogue.materials, read_material, kMaterial);
 }
 
 catalogue::Lathe machine_of(const Catalogue& catalogue, const Reader& value) {
-  return resolve(value, catalogue.machines, read_lathe, "machine");
+  return resolve(value, catalogue.machines, read_lathe, kMachine);
 }
 
 catalogue::Tool tool_of(const Catalogue& catalogue, const Reader& value) {
-  return resolve(value, catalogue.tools, read_tool, "tool", ids(catalogue.fixed_tools));
+  return resolve(value, catalogue.tools, read_tool, kTool, ids(catalogue.fixed_tools));
 }
 
 catalogue::FixedTool fixed_tool_of(const Catalogue& catalogue, const Reader& value) {
-  return resolve(value, catalogue.fixed_tools, read_fixed_tool, "tool");
+  return resolve(value, catalogue.fixed_tools, read_fixed_tool, kTool);
 }
 
 catalogue::MillingCutter cutter_of(const Catalogue& catalogue, const Reader& value) {
-  return resolve(value, catalogue.cutters, read_milling_cutter, "milling cutter");
+  return resolve(value, catalogue.cutters, read_milling_cutter, kCutter);
 }
 
 catalogue::Shop shop_of(const Catalogue& catalogue, const Reader& value) {
   const auto read = [&](const Reader& r) { return read_shop(r, targets_of(catalogue)); };
-  return resolve(value, catalogue.shops, read, "shop");
+  return resolve(value, catalogue.shops, read, kShop);
 }
 
 }  // namespace turnwright::document

@@ -1,7 +1,7 @@
-#include <fmt/format.h>
 
 #include <algorithm>
 
+#include "base/say.hpp"
 #include "catalogue_readers.hpp"
 #include "document/json/fields.hpp"
 #include "turnwright/part/inch_thread.hpp"
@@ -38,15 +38,15 @@ void read_sizes(Reader& r, FixedTool& t) {
   const auto not_rising = [](double a, double b) { return a >= b; };
   if (std::adjacent_find(t.sizes_mm.begin(), t.sizes_mm.end(), not_rising) !=
       t.sizes_mm.end())
-    r.problem_at("sizes_mm", "sizes in rising order", "order");
+    r.problem_at("sizes_mm", tr("sizes in rising order"), "order");
 }
 
 void read_hole(Reader& r, FixedTool& t) {
   if (t.use != FixedUse::drilling && !r.has("hole"))
     r.problem_at("hole",
                  t.use == FixedUse::reaming
-                     ? "the grade and roughness that the reamer leaves"
-                     : "the grade and roughness that the flat drill leaves",
+                     ? tr("the grade and roughness that the reamer leaves")
+                     : tr("the grade and roughness that the flat drill leaves"),
                  "missing");
   auto hole = r.optional_object("hole");
   if (!hole) return;
@@ -63,10 +63,9 @@ catalogue::ThreadSize read_thread(const Reader& r) {
   const auto metric = part::metric_thread(text);
   if (metric && metric->pitch_mm) return {text, metric->d_mm, *metric->pitch_mm};
   if (!text.empty())
-    r.problem(
-        "a thread like \"M10\", \"M10x1\" or \"3/8-16 UNC\", with a pitch if it is "
-        "not of the coarse series",
-        "choice");
+    r.problem(tr("a thread like \"M10\", \"M10x1\" or \"3/8-16 UNC\", with a pitch if it "
+                 "is not of the coarse series"),
+              "choice");
   return {};
 }
 
@@ -75,7 +74,7 @@ void read_depths(Reader& r, FixedTool& t) {
   if (r.has("depths_mm")) {
     t.depths_mm = r.numbers("depths_mm", above_up_to(0, 500, "mm"), 1, 200);
     if (t.depths_mm.size() != t.sizes_mm.size())
-      r.problem_at("depths_mm", "one for each of sizes_mm", "conflict");
+      r.problem_at("depths_mm", tr("one for each of sizes_mm"), "conflict");
     return;
   }
   t.reach = r.number("reach_diameters", above_up_to(0, 100));
@@ -179,7 +178,7 @@ catalogue::Range read_around(Reader& r, const char* key, const Bounds& bounds,
   const auto range = read_range(r, key, bounds);
   if (0 < range.upper && range.lower <= range.upper &&
       !(range.lower <= value && value <= range.upper))
-    r.problem_at(key, fmt::format("a range around {:g}", value), "order");
+    r.problem_at(key, say("a range around {:g}", value), "order");
   return range;
 }
 

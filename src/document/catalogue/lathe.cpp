@@ -1,6 +1,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/say.hpp"
 #include "catalogue_readers.hpp"
 #include "document/json/fields.hpp"
 #include "machine_fields.hpp"
@@ -25,7 +26,7 @@ catalogue::CurvePoint read_point(Reader r) {
   const double P_kW = units::shaft_power_kW(p.M_Nm, p.n_rpm);
   if (std::abs(P_kW - p.P_kW) > kPowerAgrees * p.P_kW)
     r.problem_at("P_kW",
-                 "the power of M_Nm at n_rpm, " + number_text(P_kW) + " kW, within 3 %",
+                 say("the power of M_Nm at n_rpm, {} kW, within 3 %", number_text(P_kW)),
                  "conflict");
   return p;
 }
@@ -37,11 +38,11 @@ void read_curve(Reader& group, Drive& d) {
     d.curve.push_back(read_point(point));
     const auto n = d.curve.size();
     if (n > 1 && d.curve[n - 1].n_rpm <= d.curve[n - 2].n_rpm)
-      point.problem("a speed above the point's before", "order");
+      point.problem(tr("a speed above the point's before"), "order");
   }
   if (d.curve.empty()) return;
   if (d.curve.front().n_rpm > d.n_min_rpm || d.curve.back().n_rpm < d.n_max_rpm)
-    group.problem_at("curve", "points from n_min_rpm or below to n_max_rpm or above",
+    group.problem_at("curve", tr("points from n_min_rpm or below to n_max_rpm or above"),
                      "conflict");
 }
 
@@ -51,7 +52,7 @@ void read_drive(Reader& group, Drive& d) {
   d.n_min_rpm = group.number("n_min_rpm", kSpeed);
   d.n_max_rpm = group.number("n_max_rpm", kSpeed);
   if (d.n_min_rpm >= d.n_max_rpm)
-    group.problem_at("n_min_rpm", "a speed below n_max_rpm", "order");
+    group.problem_at("n_min_rpm", tr("a speed below n_max_rpm"), "order");
   d.efficiency = group.number("efficiency", above_up_to(0, 1));
   read_curve(group, d);
 }
@@ -68,12 +69,13 @@ catalogue::DrivenTools read_driven_tools(Reader group) {
   d.c_axis = group.boolean_or("c_axis", d.c_axis);
   d.y_max_mm = group.number_or("y_max_mm", within(0, 1000, "mm"), d.y_max_mm);
   if (d.y_max_mm > 0 && !d.c_axis)
-    group.problem_at("y_max_mm", "0: without c_axis nothing turns the part", "choice");
+    group.problem_at("y_max_mm", tr("0: without c_axis nothing turns the part"),
+                     "choice");
   for (Reader item : group.optional_items("measured", 0, 200)) {
     item = item.as_object();
     const auto cutter = read_id(item, "cutter");
     if (!cutter.empty() && d.modes.count(cutter))
-      item.problem_at("cutter", "each cutter once", "duplicate");
+      item.problem_at("cutter", tr("each cutter once"), "duplicate");
     d.modes[cutter] = read_tip_modes(item);
     item.finish();
   }
@@ -139,17 +141,17 @@ void read_live_centre(Reader group, catalogue::LiveCentre& c) {
   c.body_mm = group.number("body_mm", length);
   if (c.point_mm > 0 && c.point_length_mm < c.point_mm / 2 * std::numbers::sqrt3)
     group.problem_at("point_length_mm",
-                     "at least the length of the cone of 60 deg, " +
-                         number_text(c.point_mm / 2 * std::numbers::sqrt3) + " mm",
+                     say("at least the length of the cone of 60 deg, {} mm",
+                         number_text(c.point_mm / 2 * std::numbers::sqrt3)),
                      "conflict");
   if (c.body_mm < c.point_mm)
-    group.problem_at("body_mm", "at least point_mm", "conflict");
+    group.problem_at("body_mm", tr("at least point_mm"), "conflict");
   finish_group(group);
 }
 
 void read_shop_budget(Reader group, catalogue::ShopBudget& b) {
   const auto error = within(0, 1000, "um");
-  b.rechucking = read_rechucking_by_jaws(group.at("rechucking_um", "an object"));
+  b.rechucking = read_rechucking_by_jaws(group.at("rechucking_um", tr("an object")));
   b.drift_um = group.number("drift_um", error);
   b.drift_axial_um = group.number("drift_axial_um", error);
   b.repeatability_um = group.number("repeatability_um", error);
@@ -177,7 +179,7 @@ void read_geometry(Reader group, catalogue::Lathe& m) {
   };
   if (volumetric::chain_fault(g.chain.chain).empty() &&
       !(has('X') && has('Z') && has('C')))
-    group.problem_at("chain", "a lathe's chain, with X, Z and C, such as wCfZXt",
+    group.problem_at("chain", tr("a lathe's chain, with X, Z and C, such as wCfZXt"),
                      "conflict");
   group.finish();
   if (group.problems().list.size() == problems) m.errors = std::move(g);

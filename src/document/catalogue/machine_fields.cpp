@@ -5,6 +5,7 @@
 #include <set>
 #include <string>
 
+#include "base/say.hpp"
 #include "turnwright/base/units.hpp"
 #include "turnwright/volumetric/axis_table.hpp"
 
@@ -71,7 +72,7 @@ AxisFit read_error_table(Reader r, const Bounds& travel, bool turns, double Q,
     if (!r.has(key)) return;
     out = r.numbers(key, within(-1e6, 1e6), 1, kReadings);
     if (!out.empty() && !t.q.empty() && out.size() != t.q.size())
-      r.problem_at(key, "as many readings as q has positions", "count");
+      r.problem_at(key, tr("as many readings as q has positions"), "count");
     for (double& x : out) x *= sign * unit;
   };
   column("plus", t.plus);
@@ -80,17 +81,17 @@ AxisFit read_error_table(Reader r, const Bounds& travel, bool turns, double Q,
   if (r.problems().list.size() != problems) return {};
   const std::set<double> places(t.q.begin(), t.q.end());
   if (t.plus.empty() && t.minus.empty())
-    r.problem("neither", "plus, minus or both: readings by direction of approach",
+    r.problem(tr("neither"), tr("plus, minus or both: readings by direction of approach"),
               "missing");
   else if (places.size() < static_cast<std::size_t>(degree) + 1)
-    r.problem_at("q", std::to_string(degree + 1) + " positions or more", "count");
+    r.problem_at("q", say("{} positions or more", degree + 1), "count");
   else if (const AxisFit fit = fit_axis(t, Q, degree); fits(fit, bounds))
     return fit;
   else
-    r.problem(
-        "a fit out of bounds",
-        "positions so far apart that each coefficient is " + expected_number(bounds),
-        "range");
+    r.problem(tr("a fit out of bounds"),
+              say("positions so far apart that each coefficient is {}",
+                  expected_number(bounds)),
+              "range");
   return {};
 }
 
@@ -160,12 +161,13 @@ std::vector<Axis> read_axes(const std::vector<Reader>& items, const std::string&
   for (Reader item : items) {
     const std::size_t problems = item.problems().list.size();
     item = item.as_object();
-    const char name = kLetters[item.at("name", "an axis of the chain").as_choice(kNames)];
+    const char name =
+        kLetters[item.at("name", tr("an axis of the chain")).as_choice(kNames)];
     if (item.problems().list.size() != problems) continue;
     if (!chain.empty() && chain.find(name) == std::string::npos)
-      item.problem_at("name", "an axis of the chain " + chain, "reference");
+      item.problem_at("name", say("an axis of the chain {}", chain), "reference");
     if (std::ranges::find(axes, name, &Axis::name) != axes.end())
-      item.problem_at("name", "each axis once", "duplicate");
+      item.problem_at("name", tr("each axis once"), "duplicate");
     meaning.side = chain.empty() ? 1 : sense(chain, name);
     axes.push_back(read_axis(item, name, meaning));
   }
@@ -186,15 +188,16 @@ Machine read_chain(Reader& r, std::vector<Axis>* fitted_u) {
   const std::string fault = chain_fault(m.chain);
   const bool known = fault.empty();
   if (!m.chain.empty() && !known)
-    r.problem_at("chain", "a chain such as wCfZXt: " + fault, "chain");
+    r.problem_at("chain", say("a chain such as wCfZXt: {}", fault), "chain");
   m.axes = read_axes(r.items("axes", 0, kDirections), known ? m.chain : "",
                      {.fitted_u = fitted_u});
   if (known && r.json().contains("axes") && r.json()["axes"].is_array())
     for (const char c : m.chain)
       if (letter_index(c) != std::string_view::npos &&
           std::ranges::find(m.axes, c, &Axis::name) == m.axes.end())
-        r.problems().add({r.pointer_of("axes"), std::string("no axis ") + c,
-                          "an entry for each axis of the chain " + m.chain, "missing"});
+        r.problems().add({r.pointer_of("axes"), say("no axis {}", c),
+                          say("an entry for each axis of the chain {}", m.chain),
+                          "missing"});
   return m;
 }
 
@@ -230,7 +233,7 @@ Position read_position(Reader r, const Machine& m) {
     at.sign[k] = group.number_or(std::string(1, c), within(-1, 1), 0);
     if (at.sign[k] != -1 && at.sign[k] != 0 && at.sign[k] == at.sign[k] &&
         at.sign[k] != 1)
-      group.problem_at(std::string(1, c), "-1, 0 or 1", "range");
+      group.problem_at(std::string(1, c), tr("-1, 0 or 1"), "range");
   });
   r.finish();
   return at;

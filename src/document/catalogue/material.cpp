@@ -1,5 +1,6 @@
 #include "catalogue_readers.hpp"
 #include "document/json/fields.hpp"
+#include "turnwright/base/language.hpp"
 
 namespace turnwright::document {
 namespace {
@@ -42,7 +43,7 @@ void read_thrust(Reader group, catalogue::Material& m) {
   t.total_uncertainty_pct =
       group.optional_number("total_uncertainty_pct", within(0, 100, "%"));
   if (t.ratio == 0 && t.edge_N_mm == 0)
-    group.problem_at("ratio", "ratio or edge_N_mm above 0", "0");
+    group.problem_at("ratio", tr("ratio or edge_N_mm above 0"), "0");
   t.uncertainty_pct = finish_group(group);
   m.thrust = t;
 }

@@ -5,6 +5,8 @@
 #include <cctype>
 #include <string_view>
 
+#include "base/say.hpp"
+
 namespace turnwright::document {
 namespace {
 
@@ -47,9 +49,11 @@ std::vector<catalogue::Material> materials_called(
 
 std::string expected_state(const std::vector<catalogue::Material>& candidates) {
   std::string list;
-  for (const auto& m : candidates)
-    list += (list.empty() ? "" : " or ") + ('"' + m.id + "\" (" + m.name + ')');
-  return "one of the materials that are called so: " + list;
+  for (const auto& m : candidates) {
+    const auto one = '"' + m.id + "\" (" + m.name + ')';
+    list = list.empty() ? one : say("{} or {}", list, one);
+  }
+  return say("one of the materials that are called so: {}", list);
 }
 
 }  // namespace turnwright::document

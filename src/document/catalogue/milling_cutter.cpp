@@ -2,6 +2,7 @@
 
 #include "catalogue_readers.hpp"
 #include "document/json/fields.hpp"
+#include "turnwright/base/language.hpp"
 
 namespace turnwright::document {
 namespace {
@@ -15,13 +16,13 @@ void read_cutter_geometry(Reader group, MillingCutter& c) {
   c.teeth = static_cast<int>(group.integer("zefp", 1, 20));
   c.re_mm = group.number("re_mm", within(0, 250, "mm"));
   if (c.re_mm > c.dc_mm / 2)
-    group.problem_at("re_mm", "a corner radius of at most half of dc_mm", "conflict");
+    group.problem_at("re_mm", tr("a corner radius of at most half of dc_mm"), "conflict");
   c.lu_mm = group.number("lu_mm", kLength);
   c.gamma_deg = group.number("gamma_deg", within(-30, 45, "deg"));
   c.centre_cutting = group.boolean("centre_cutting");
   c.ap_mm = read_range(group, "ap_mm", kLength);
   if (c.ap_mm.upper > c.lu_mm)
-    group.problem_at("ap_mm", "depths up to lu_mm at most", "conflict");
+    group.problem_at("ap_mm", tr("depths up to lu_mm at most"), "conflict");
   finish_group(group);
 }
 

@@ -5,6 +5,7 @@
 #include "document/json/fields.hpp"
 #include "document/json/reference.hpp"
 #include "material_names.hpp"
+#include "turnwright/base/language.hpp"
 
 namespace turnwright::document {
 namespace {
@@ -20,17 +21,18 @@ std::vector<std::string> read_tool_ids(Reader& r, std::string_view key, std::siz
                                        const ShopTargets& known) {
   std::vector<std::string> all;
   for (const auto& item : r.optional_items(key, 0, most)) {
-    auto id =
-        checked_reference(item, known.tools, "a tool of the catalogue or the request");
+    auto id = checked_reference(item, known.tools,
+                                tr("a tool of the catalogue or the request"));
     if (std::ranges::find(all, id) != all.end())
-      item.problem("each tool once", "duplicate");
+      item.problem(tr("each tool once"), "duplicate");
     all.push_back(std::move(id));
   }
   return all;
 }
 
 std::string read_tool_id(const Reader& value, const ShopTargets& known) {
-  return checked_reference(value, known.tools, "a tool of the catalogue or the request");
+  return checked_reference(value, known.tools,
+                           tr("a tool of the catalogue or the request"));
 }
 
 // The id of the material that is called so.
@@ -46,7 +48,7 @@ std::string read_material_id(const Reader& value, const ShopTargets& known) {
     value.problem(expected_state(called), "ambiguous");
   else if (!name.empty())
     value.problem(
-        expected_reference(name, ids, "a material of the catalogue or the request"),
+        expected_reference(name, ids, tr("a material of the catalogue or the request")),
         "unknown-id");
   return {};
 }
@@ -65,8 +67,8 @@ HouseSpeed read_speed(Reader r, const ShopTargets& known) {
 ProvenConditions read_proven(Reader r, const ShopTargets& known) {
   r = r.as_object();
   ProvenConditions p;
-  p.tool = read_tool_id(r.at("tool", "the id of a tool"), known);
-  p.material = read_material_id(r.at("material", "a material"), known);
+  p.tool = read_tool_id(r.at("tool", tr("the id of a tool")), known);
+  p.material = read_material_id(r.at("material", tr("a material")), known);
   const auto range = [&](const char* key, const Bounds& bounds) {
     return r.has(key) ? std::optional(read_range(r, key, bounds)) : std::nullopt;
   };
@@ -85,7 +87,7 @@ void read_all_proven(Reader r, const ShopTargets& known, ShopRules& rules) {
       return !p.tool.empty() && other.tool == p.tool && other.material == p.material;
     };
     if (std::ranges::any_of(rules.proven, same))
-      item.problem("each tool and material once", "duplicate");
+      item.problem(tr("each tool and material once"), "duplicate");
     rules.proven.push_back(std::move(p));
   }
   r.finish();

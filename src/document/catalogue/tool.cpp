@@ -2,6 +2,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "base/say.hpp"
 #include "catalogue_readers.hpp"
 #include "document/json/fields.hpp"
 #include "turnwright/catalogue/chip_window.hpp"
@@ -27,10 +28,11 @@ void read_turning_geometry(Reader group, catalogue::Tool& t) {
   t.wiper = group.boolean_or("wiper", false);
   finish_group(group);
   if (t.kapr_deg + t.minor_kapr_deg >= 180)
-    group.problem_at("minor_kapr_deg", "a corner: kapr_deg + minor_kapr_deg < 180 deg",
-                     "conflict");
+    group.problem_at("minor_kapr_deg",
+                     tr("a corner: kapr_deg + minor_kapr_deg < 180 deg"), "conflict");
   if (t.alpha_deg + t.gamma_deg >= 90)
-    group.problem_at("gamma_deg", "a wedge: alpha_deg + gamma_deg < 90 deg", "conflict");
+    group.problem_at("gamma_deg", tr("a wedge: alpha_deg + gamma_deg < 90 deg"),
+                     "conflict");
 }
 
 const Bounds kFeed = above_up_to(0, 5, "mm/rev"), kDepth = above_up_to(0, 50, "mm");
@@ -50,7 +52,7 @@ void read_chip_window(Reader& group, catalogue::Tool& t) {
   if (faults() > before) return;
   if (!catalogue::is_simple(polygon)) {
     group.problem_at("chip_window",
-                     "corners [ap_mm, f_mm_rev] of one area whose edges do not cross",
+                     tr("corners [ap_mm, f_mm_rev] of one area whose edges do not cross"),
                      "conflict");
     return;
   }
@@ -65,7 +67,7 @@ void read_chip_window(Reader& group, catalogue::Tool& t) {
                           const catalogue::Range& polygons) {
     if (!group.has(key)) given = polygons;
     if (given.lower >= polygons.upper || given.upper <= polygons.lower)
-      group.problem_at(key, "a range that chip_window reaches", "conflict");
+      group.problem_at(key, tr("a range that chip_window reaches"), "conflict");
   };
   within("ap_mm", t.ap_mm, ap);
   within("f_mm_rev", t.f_mm_rev, f);
@@ -88,7 +90,7 @@ catalogue::BarSegment read_bar_segment(Reader r) {
                           .diameter_mm = r.number("diameter_mm", size),
                           .bore_mm = r.number_or("bore_mm", within(0, 2000, "mm"), 0)};
   if (s.bore_mm >= s.diameter_mm)
-    r.problem_at("bore_mm", "less than diameter_mm", "order");
+    r.problem_at("bore_mm", tr("less than diameter_mm"), "order");
   r.finish();
   return s;
 }
@@ -107,17 +109,17 @@ catalogue::BoringBar read_bar(Reader group) {
   bar.damping_ratio = group.optional_number("damping_ratio", kDamping);
   finish_group(group);
   if (bar.longest_mm && *bar.longest_mm < catalogue::stick_out_mm(bar))
-    group.problem_at("longest_mm", "at least the length of the segments", "conflict");
+    group.problem_at("longest_mm", tr("at least the length of the segments"), "conflict");
   if (bar.longest_mm && bar.tip_mm_N)
     group.problem_at(
         "longest_mm",
-        "no longest stick-out: tip_mm_N was measured at that of the segments",
+        tr("no longest stick-out: tip_mm_N was measured at that of the segments"),
         "conflict");
   for (const auto& s : bar.segments)
     if (s.diameter_mm / 2 > bar.min_bore_mm - bar.tip_offset_mm)
       group.problem_at("min_bore_mm",
-                       "a hole with room for shank and corner: at least tip_offset_mm "
-                       "and half of every diameter_mm",
+                       tr("a hole with room for shank and corner: at least tip_offset_mm "
+                          "and half of every diameter_mm"),
                        "conflict");
   return bar;
 }
@@ -133,20 +135,19 @@ void check_holder(Reader& group, const catalogue::Holder& h, const catalogue::To
     const auto coded = catalogue::decode_iso5608(h.designation);
     conflict(coded.insert_shape == insert.shape &&
                  coded.edge_code == std::lround(10 * insert.edge_length_mm) / 10,
-             "designation", "a holder of the insert " + t.insert);
+             "designation", say("a holder of the insert {}", t.insert));
     conflict(coded.kapr_deg == t.kapr_deg, "designation",
-             "a style whose KAPR is geometry/kapr_deg, " + number_text(t.kapr_deg) +
-                 " deg, not " + number_text(coded.kapr_deg) + " deg");
+             say("a style whose KAPR is geometry/kapr_deg, {} deg, not {} deg",
+                 number_text(t.kapr_deg), number_text(coded.kapr_deg)));
     conflict(coded.h_mm == h.h_mm && coded.b_mm == h.b_mm &&
                  coded.lf_mm.value_or(h.lf_mm) == h.lf_mm,
-             "designation", "the size that h_mm, b_mm and lf_mm give");
+             "designation", tr("the size that h_mm, b_mm and lf_mm give"));
     const auto minor = catalogue::minor_angle_deg(t.kapr_deg, insert);
-    conflict(!minor || t.wiper || std::abs(*minor - t.minor_kapr_deg) < 0.01,
-             "designation",
-             "an insert whose angle, with kapr_deg and minor_kapr_deg, makes 180 deg");
+    conflict(
+        !minor || t.wiper || std::abs(*minor - t.minor_kapr_deg) < 0.01, "designation",
+        tr("an insert whose angle, with kapr_deg and minor_kapr_deg, makes 180 deg"));
   } catch (const std::domain_error& error) {
-    group.problem_at("designation",
-                     std::string("an ISO 5608 designation (") + error.what() + ")",
+    group.problem_at("designation", say("an ISO 5608 designation ({})", error.what()),
                      "choice");
   }
 }
@@ -161,7 +162,7 @@ catalogue::Holder read_holder(Reader group, const catalogue::Tool& t) {
   h.lh_mm = group.number("lh_mm", size);
   h.wf_mm = group.number("wf_mm", size);
   finish_group(group);
-  if (h.lh_mm >= h.lf_mm) group.problem_at("lh_mm", "less than lf_mm", "order");
+  if (h.lh_mm >= h.lf_mm) group.problem_at("lh_mm", tr("less than lf_mm"), "order");
   check_holder(group, h, t);
   return h;
 }
@@ -174,13 +175,11 @@ void check_insert(Reader& r, const catalogue::Tool& t) {
     const auto insert = catalogue::decode_iso1832(t.insert);
     if (std::isfinite(t.re_mm) && !catalogue::is_corner_of(insert, t.re_mm))
       r.problem_at("insert",
-                   "a designation whose corner is geometry/re_mm, " +
-                       number_text(t.re_mm) + " mm, not " + number_text(insert.re_mm) +
-                       " mm",
+                   say("a designation whose corner is geometry/re_mm, {} mm, not {} mm",
+                       number_text(t.re_mm), number_text(insert.re_mm)),
                    "conflict");
   } catch (const std::domain_error& error) {
-    r.problem_at("insert", std::string("an ISO 1832 designation (") + error.what() + ")",
-                 "choice");
+    r.problem_at("insert", say("an ISO 1832 designation ({})", error.what()), "choice");
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/say.hpp"
 #include "document/json/file.hpp"
 #include "turnwright/base/errors.hpp"
 
@@ -22,15 +23,16 @@ std::vector<fs::path> sorted_content(const fs::path& folder) {
 }
 
 void add(const fs::path& file, Translations& texts) {
-  const auto document = parse_file(file);
+  constexpr ParseLimits kSentences{.key_bytes = 10'000};
+  const auto document = parse_file(file, "", kSentences);
   std::vector<Problem> problems;
   if (!document.is_object())
-    problems.push_back({"", document.type_name(), "an object of texts", "type"});
+    problems.push_back({"", document.type_name(), tr("an object of texts"), "type"});
   for (const auto& [english, text] : document.items()) {
     if (text.is_string())
       texts.emplace(english, text.get<std::string>());
     else
-      problems.push_back({'/' + english, text.dump(), "a text", "type"});
+      problems.push_back({'/' + english, text.dump(), tr("a text"), "type"});
   }
   if (!problems.empty()) throw InputError(file.string(), std::move(problems));
 }
@@ -49,8 +51,8 @@ Translations translations(const fs::path& data_folder, const std::string& langua
   if (std::ranges::find(known, language) == known.end()) {
     std::string all;
     for (const auto& one : known) all += (all.empty() ? "" : ", ") + one;
-    throw InputError("command line",
-                     {{"--language", '"' + language + '"', "one of " + all, "choice"}});
+    throw InputError(tr("command line"), {{"--language", '"' + language + '"',
+                                           say("one of {}", all), "choice"}});
   }
   Translations texts;
   if (language == kEnglish) return texts;

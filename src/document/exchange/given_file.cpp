@@ -6,6 +6,8 @@
 #include <cctype>
 #include <utility>
 
+#include "base/say.hpp"
+
 namespace turnwright::document {
 namespace {
 
@@ -19,7 +21,7 @@ std::string decoded(const Reader& r, const std::string& what) {
                                       reinterpret_cast<const unsigned char*>(text.data()),
                                       static_cast<int>(text.size()));
   if (written < 0 || text.empty()) {
-    r.problem("base64 (RFC 4648) of the " + what + "'s bytes", "format");
+    r.problem(say("base64 (RFC 4648) of the {}'s bytes", tr(what)), "format");
     return {};
   }
   out.resize(static_cast<std::size_t>(written) - pads);
@@ -31,8 +33,9 @@ std::string decoded(const Reader& r, const std::string& what) {
 GivenFile read_given_file(Reader& r, const std::string& what, std::size_t most_bytes) {
   const bool text = r.has("text"), base64 = r.has("base64");
   if (text == base64) {
-    r.problem(text ? "text and base64" : "no " + what,
-              "\"text\" with the " + what + ", or \"base64\" with its bytes", "conflict");
+    r.problem(text ? tr("text and base64") : say("no {}", tr(what)),
+              say("\"text\" with the {}, or \"base64\" with its bytes", tr(what)),
+              "conflict");
     r.find("text");
     r.find("base64");
     return {};

@@ -11,7 +11,7 @@ struct GivenFile {
   std::string pointer;  ///< where they stand in the request
 };
 
-/// @param what  what the file is, "drawing", for problems.
+/// @param what  what the file is, the English text "drawing", for problems.
 GivenFile read_given_file(Reader& r, const std::string& what, std::size_t most_bytes);
 
 /// The bytes that a text gives in base64; "" if it cannot, which is reported.

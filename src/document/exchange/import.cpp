@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/say.hpp"
 #include "document/catalogue/entries.hpp"
 #include "document/catalogue/material_names.hpp"
 #include "document/json/fields.hpp"
@@ -143,12 +144,12 @@ Section section_of(const Outline& o) {
     const char* size = e.flats > 0 ? "across_flats_mm" : "diameter_mm";
     return {{{"kind", kind}, {size, e.left_mm}},
             e.left_mm,
-            "the bar that " + e.id + " keeps, " + mm_text(e.left_mm)};
+            say("the bar that {} keeps, {}", e.id, mm_text(e.left_mm))};
   }
   const double d_mm = bar_mm(largest_mm(o));
   return {{{"kind", "bar"}, {"diameter_mm", d_mm}},
           d_mm,
-          "the next round bar, " + mm_text(d_mm)};
+          say("the next round bar, {}", mm_text(d_mm))};
 }
 
 ordered_json next_bar(const Outline& o, Remarks& assumed) {
@@ -158,15 +159,16 @@ ordered_json next_bar(const Outline& o, Remarks& assumed) {
   const auto micrometres = [](double mm) { return std::round(mm * 1e6) / 1e6; };
   if (plain(o)) {
     const double held_mm = std::max(kHeld_mm, across_mm);
-    assumed.add("/stock", "The stock is " + words + ": " + mm_text(held_mm) +
-                              " of it are held, and the part is parted off.");
+    assumed.add("/stock",
+                say("The stock is {}: {} of it are held, and the part is parted off.",
+                    words, mm_text(held_mm)));
     stock["length_mm"] = micrometres(length_mm + held_mm + kFacing_mm);
     stock["left_allowance_mm"] = held_mm;
     stock["part_off_allowance_mm"] = kPartedOff_mm;
     return stock;
   }
-  assumed.add("/stock", "The stock is " + words + ", with " + mm_text(kFacing_mm) +
-                            " to face at each end.");
+  assumed.add("/stock", say("The stock is {}, with {} to face at each end.", words,
+                            mm_text(kFacing_mm)));
   stock["length_mm"] = micrometres(length_mm + 2 * kFacing_mm);
   stock["left_allowance_mm"] = kFacing_mm;
   return stock;
@@ -179,8 +181,9 @@ void tell_other_bars(const Outline& o, Remarks& ignored) {
     if (e.shape != exchange::Shape::as_stock) continue;
     if (!first) first = &e;
     if (e.flats != first->flats || e.left_mm != first->left_mm)
-      ignored.add("/stock", e.id + " keeps another bar than " + first->id +
-                                ", of which the part is made.");
+      ignored.add("/stock",
+                  say("{} keeps another bar than {}, of which the part is made.", e.id,
+                      first->id));
   }
 }
 
@@ -189,12 +192,13 @@ std::string expected_material(const std::string& drawings,
                               const std::vector<catalogue::Material>& called,
                               const Catalogue& catalogue) {
   if (called.size() > 1)
-    return "for the drawing's \"" + drawings + "\" " + expected_state(called);
+    return say("for the drawing's \"{}\" {}", drawings, expected_state(called));
   const auto known = expected_reference(drawings, ids(catalogue.materials),
-                                        "a material of the catalogue");
-  return drawings.empty() ? "a material, which the drawing does not name: " + known
-                          : "a material of the catalogue for the drawing's \"" +
-                                drawings + "\": " + known;
+                                        tr("a material of the catalogue"));
+  return drawings.empty()
+             ? say("a material, which the drawing does not name: {}", known)
+             : say("a material of the catalogue for the drawing's \"{}\": {}", drawings,
+                   known);
 }
 
 ordered_json material_of_part(const Outline& o, const Choice& choice,
@@ -210,13 +214,14 @@ ordered_json material_of_part(const Outline& o, const Choice& choice,
           return m.id == wanted.front().id;
         });
     if (!o.material.empty() && !same)
-      assumed.add("/material", "The request's material is taken, not the drawing's " +
-                                   o.material + ".");
+      assumed.add(
+          "/material",
+          say("The request's material is taken, not the drawing's {}.", o.material));
     return choice.material;
   }
   if (called.size() == 1) {
-    assumed.add("/material", "The drawing says " + o.material + ": " + called[0].id +
-                                 " of the catalogue.");
+    assumed.add("/material", say("The drawing says {}: {} of the catalogue.", o.material,
+                                 called[0].id));
     return called[0].id;
   }
   r.problem_at("material", expected_material(o.material, called, catalogue), "missing");
@@ -237,8 +242,8 @@ ordered_json part_document(const Outline& o, const Choice& choice,
     part["general"] = o.general;
   } else {
     part["general"] = kGeneral;
-    assumed.add("/general", std::string("Sizes left open have the general tolerances ") +
-                                kGeneral + ".");
+    assumed.add("/general",
+                say("Sizes left open have the general tolerances {}.", kGeneral));
   }
   if (!choice.machine.is_null()) part["machine"] = choice.machine;
   part["choose"] = {{"setups", "auto"}};
@@ -258,8 +263,8 @@ void check_part(const ordered_json& part, const json& request, const Catalogue& 
       if (member.size() > 1 && request.contains(member.substr(1)))
         problems.add(p);
       else
-        ignored.add(p.pointer, "The planner refuses this: got " + p.got + ", expected " +
-                                   p.expected + ".");
+        ignored.add(p.pointer, say("The planner refuses this: got {}, expected {}.",
+                                   p.got, p.expected));
     }
   }
 }
@@ -270,7 +275,7 @@ ordered_json import(const json& request, const Catalogue& catalogue) {
   Problems problems{.document = "import"};
   Reader r = Reader(request, problems).as_object();
   read_format(r, "turnwright-import/1");
-  const auto given = read_given_file(r, "drawing", kLargestDrawing);
+  const auto given = read_given_file(r, to_translate("drawing"), kLargestDrawing);
   const auto as = r.optional_choice("source", kSources);
   const auto body = r.optional_text("body");
   const Choice choice = read_choice(r);

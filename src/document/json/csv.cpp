@@ -6,6 +6,7 @@
 #include <optional>
 #include <string_view>
 
+#include "base/say.hpp"
 #include "pointer.hpp"
 #include "text_lines.hpp"
 
@@ -15,8 +16,9 @@ namespace {
 using Line = TextLine;
 
 constexpr std::string_view kBlank = " \t";
-constexpr const char* kForm = "the text of a table, or the list of its lines";
-constexpr const char* kText = "a table as text";
+constexpr const char* kForm =
+    to_translate("the text of a table, or the list of its lines");
+constexpr const char* kText = to_translate("a table as text");
 
 struct Header {
   char separator = ',';
@@ -66,8 +68,8 @@ std::optional<std::vector<std::string>> cells_of(const Reader& csv, const Line& 
                                                  char separator, std::size_t least) {
   auto out = cells(line.text, separator);
   if (!out)
-    report(csv, pointer_of(csv, line), "a quote out of place",
-           "cells as \"text\", on one line, with \"\" for a quote", "type");
+    report(csv, pointer_of(csv, line), tr("a quote out of place"),
+           tr("cells as \"text\", on one line, with \"\" for a quote"), "type");
   while (out && out->size() > least && out->back().empty()) out->pop_back();
   return out;
 }
@@ -102,17 +104,18 @@ std::optional<Header> read_header(const Reader& csv, const Line& line,
     const auto found = std::ranges::find(columns, name, &CsvColumn::name);
     const CsvColumn* const column = found == columns.end() ? nullptr : &*found;
     if (!column && others == OtherColumns::refused)
-      wrong("column " + shown(name), "columns of " + list(columns), "unknown-key");
+      wrong(say("column {}", shown(name)), say("columns of {}", list(columns)),
+            "unknown-key");
     else if (column && std::ranges::count(out.columns, column) > 0)
-      wrong("column " + shown(name) + " again", "each column once", "duplicate");
+      wrong(say("column {} again", shown(name)), tr("each column once"), "duplicate");
     out.columns.push_back(column);
     if (!column) strangers.push_back(name);
   }
   for (const CsvColumn& column : columns) {
     if (!column.required || std::ranges::count(*names, column.name) > 0) continue;
     const auto near = nearest(column.name, strangers);
-    wrong("no column \"" + column.name + "\"",
-          near.empty() ? "one" : "perhaps " + shown(near), "missing");
+    wrong(say("no column \"{}\"", column.name),
+          near.empty() ? tr("one") : say("perhaps {}", shown(near)), "missing");
   }
   return good ? std::optional(out) : std::nullopt;
 }
@@ -134,8 +137,8 @@ bool has_decimal_comma(std::string cell) {
 bool has_length(const Reader& csv, const Line& line, std::size_t cells,
                 std::size_t header) {
   if (cells != header)
-    report(csv, pointer_of(csv, line), std::to_string(cells) + " cells",
-           std::to_string(header) + " as in the header", "count");
+    report(csv, pointer_of(csv, line), say("{} cells", cells),
+           say("{} as in the header", header), "count");
   return cells == header;
 }
 
@@ -153,7 +156,7 @@ bool add_row(const Reader& csv, const Line& line, const Header& header,
     if (!column || cell.empty()) continue;
     if (!column->text && has_decimal_comma(cell)) {
       report(csv, child_pointer(row.pointer, column->name), shown(cell),
-             "a decimal point, here and in all numbers", "type");
+             tr("a decimal point, here and in all numbers"), "type");
       return false;
     }
     row.value[column->name] = column->text ? nlohmann::json(cell) : value_of(cell);
@@ -167,8 +170,8 @@ void check_rows(const Reader& csv, std::size_t rows, std::size_t most,
                 std::size_t problems_before, const std::string& header) {
   const bool nothing = rows == 0 && csv.problems().list.size() == problems_before;
   if (rows > most || nothing)
-    csv.problem(nothing ? "no rows" : "more rows",
-                header + " and 1 to " + std::to_string(most) + " rows", "count");
+    csv.problem(nothing ? tr("no rows") : tr("more rows"),
+                say("{} and 1 to {} rows", header, most), "count");
 }
 
 }  // namespace
@@ -205,7 +208,7 @@ void csv_cells(const Reader& csv, std::size_t most_rows,
       continue;
     if (!take({line.number, std::move(*row)})) return;
   }
-  check_rows(csv, rows, most_rows, before, "a header");
+  check_rows(csv, rows, most_rows, before, tr("a header"));
 }
 
 std::vector<std::string> csv_header(const Reader& csv) {
@@ -239,7 +242,7 @@ std::vector<CsvRow> csv_rows(const Reader& csv, const std::vector<CsvColumn>& co
     if (rows.size() > most_rows) break;
   }
   check_rows(csv, rows.size(), most_rows, before,
-             "a header with columns of " + list(columns));
+             say("a header with columns of {}", list(columns)));
   return rows;
 }
 

@@ -1,5 +1,7 @@
 #include "fields.hpp"
 
+#include "turnwright/base/language.hpp"
+
 namespace turnwright::document {
 namespace {
 
@@ -22,7 +24,7 @@ bool is_id(std::string_view text) {
 
 std::string read_id(Reader& r, std::string_view key) {
   const std::string expected =
-      "an id of 1 to 64 letters, digits or _.+-, a letter or digit first";
+      tr("an id of 1 to 64 letters, digits or _.+-, a letter or digit first");
   const Reader value = r.at(key, expected);
   if (value.broken()) return "";
   if (!value.is_text()) {
@@ -52,7 +54,8 @@ void read_required_format(Reader& r, const std::string& format) {
 catalogue::Range read_range(Reader& r, std::string_view key, const Bounds& bounds) {
   const auto ends = r.numbers(key, bounds, 2, 2);
   if (ends.size() != 2) return {};
-  if (ends[0] > ends[1]) r.problem_at(key, "[lower, upper] with lower <= upper", "order");
+  if (ends[0] > ends[1])
+    r.problem_at(key, tr("[lower, upper] with lower <= upper"), "order");
   return {.lower = ends[0], .upper = ends[1]};
 }
 
@@ -96,7 +99,7 @@ catalogue::RootCompliance read_compliance(Reader r) {
   // The work of a force and a couple is never negative, up to rounding.
   const double product = c.c0_mm_N * c.c2_rad_Nmm;
   if (c.c1_rad_N * c.c1_rad_N > product * (1 + 1e-12))
-    r.problem("c0_mm_N times c2_rad_Nmm at least c1_rad_N squared", "conflict");
+    r.problem(tr("c0_mm_N times c2_rad_Nmm at least c1_rad_N squared"), "conflict");
   return c;
 }
 

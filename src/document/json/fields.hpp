@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "reader.hpp"
+#include "turnwright/base/language.hpp"
 #include "turnwright/catalogue/machine.hpp"
 #include "turnwright/catalogue/material.hpp"
 #include "turnwright/catalogue/milling_cutter.hpp"
@@ -60,7 +61,7 @@ std::vector<E> read_set(Reader& r, std::string_view key, const Choices<E>& choic
     out.push_back(choices[item->as_choice(words)].second);
     const auto same = [&](const Reader& other) { return other.json() == item->json(); };
     if (std::any_of(items.begin(), item, same))
-      item->problem("each word once", "duplicate");
+      item->problem(tr("each word once"), "duplicate");
   }
   return out;
 }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/say.hpp"
 #include "pointer.hpp"
 #include "turnwright/base/errors.hpp"
 
@@ -12,9 +13,9 @@ template <class Json>
 void require(const Json& value, const std::string& where) {
   if (value.is_number_float() && !std::isfinite(value.template get<double>()))
     throw ModelRangeError(
-        where +
-        ": the result is not a finite number, so the request is outside the model's "
-        "range");
+        say("{}: the result is not a finite number, so the request is outside the "
+            "model's range",
+            where));
   if (!value.is_structured()) return;
   for (const auto& [key, member] : value.items())
     require(member, child_pointer(where, key));

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/say.hpp"
 #include "pointer.hpp"
 #include "reader.hpp"
 #include "slip.hpp"
@@ -22,7 +23,7 @@ std::string place(std::string_view text, std::size_t bytes_read) {
   const auto line = std::count(before.begin(), before.end(), '\n') + 1;
   const auto start = before.rfind('\n');
   const auto column = before.size() - (start == before.npos ? 0 : start + 1) + 1;
-  return "line " + std::to_string(line) + ", column " + std::to_string(column);
+  return say("line {}, column {}", line, column);
 }
 
 // Printable ASCII of a parser's message, which repeats raw bytes of the document.
@@ -52,6 +53,44 @@ std::string reason(const std::string& what) {
            text.substr(end);
   }
   return printable(text);
+}
+
+// What nlohmann's messages consist of.
+constexpr const char* kParserWords[] = {
+    // where it was
+    to_translate("in value"), to_translate("in object key"),
+    to_translate("in object separator"), to_translate("in array"),
+    to_translate("in object"),
+    // what it read and what it expected
+    to_translate("true literal"), to_translate("false literal"),
+    to_translate("null literal"), to_translate("string literal"),
+    to_translate("number literal"), to_translate("end of input"),
+    to_translate("'[', '{', or a literal"),
+    // what is wrong with it
+    to_translate("invalid literal"), to_translate("invalid number"),
+    to_translate("digit after '-'"), to_translate("digit after '.'"),
+    to_translate("digit after exponent sign"),
+    to_translate("invalid string: missing closing quote"),
+    to_translate("invalid string: ill-formed UTF-8 byte"),
+    to_translate("invalid string: forbidden character after backslash"),
+    to_translate("invalid string: '\\u' must be followed by 4 hex digits"),
+    to_translate("invalid string: surrogate U+D800..U+DBFF must be followed by "
+                 "U+DC00..U+DFFF"),
+    to_translate("invalid string: surrogate U+DC00..U+DFFF must follow U+D800..U+DBFF"),
+    to_translate("invalid BOM; must be 0xEF 0xBB 0xBF if given")};
+
+std::string parser_word(const std::string& english) {
+  return std::ranges::count(kParserWords, english) > 0 ? tr(english) : english;
+}
+
+// A reason in the program's language, as far as it is known.
+std::string in_words(const std::string& english) {
+  constexpr std::string_view kUnexpected = "unexpected ";
+  if (const auto in = english.rfind(" in "); in != english.npos)
+    return in_words(english.substr(0, in)) + ' ' + parser_word(english.substr(in + 1));
+  if (english.starts_with(kUnexpected))
+    return say("unexpected {}", parser_word(english.substr(kUnexpected.size())));
+  return parser_word(english);
 }
 
 // number_word() finds words that are not JSON but numbers in other languages.
@@ -98,14 +137,14 @@ class Builder : public nlohmann::json_sax<json> {
   bool number_float(json::number_float_t value, const std::string& digits) override {
     if (value == 0 && nonzero(digits)) {
       report(pointer(), printable(digits.substr(0, limits_.key_bytes)),
-             "a number that a double can hold", "number");
+             tr("a number that a double can hold"), "number");
     }
     return add(value);
   }
   bool string(std::string& value) override {
     if (value.size() > limits_.string_bytes)
-      report(pointer(), "a text of " + std::to_string(value.size()) + " bytes",
-             "at most " + std::to_string(limits_.string_bytes) + " bytes", "size");
+      report(pointer(), say("a text of {} bytes", value.size()),
+             say("at most {} bytes", limits_.string_bytes), "size");
     return add(std::move(value));
   }
   bool binary(json::binary_t&) override { return false; }  // never comes from text
@@ -117,13 +156,12 @@ class Builder : public nlohmann::json_sax<json> {
 
   bool key(std::string& value) override {
     if (value.size() > limits_.key_bytes)
-      return report(pointer_of_container(),
-                    "a key of " + std::to_string(value.size()) + " bytes",
-                    "at most " + std::to_string(limits_.key_bytes) + " bytes", "size");
+      return report(pointer_of_container(), say("a key of {} bytes", value.size()),
+                    say("at most {} bytes", limits_.key_bytes), "size");
     auto& level = stack_.back();
     if (level.node->contains(value))
-      report(child_pointer(pointer_of_container(), value), "the key a second time",
-             "each key once", "duplicate-key");
+      report(child_pointer(pointer_of_container(), value), tr("the key a second time"),
+             tr("each key once"), "duplicate-key");
     level.key = std::move(value);
     return true;
   }
@@ -131,20 +169,21 @@ class Builder : public nlohmann::json_sax<json> {
   bool parse_error(std::size_t position, const std::string&,
                    const json::exception& error) override {
     if (dynamic_cast<const json::out_of_range*>(&error))
-      return report(pointer(), "a number too large (" + place(text_, position) + ")",
-                    "a number that a double can hold", "number");
+      return report(pointer(), say("a number too large ({})", place(text_, position)),
+                    tr("a number that a double can hold"), "number");
     if (const auto word = number_word(text_, position); !word.empty())
-      return report(pointer(), "broken JSON at " + place(text_, position) + ": " + word,
-                    "a number; JSON knows no " + word, "syntax");
+      return report(pointer(), say("broken JSON at {}: {}", place(text_, position), word),
+                    say("a number; JSON knows no {}", word), "syntax");
     const std::string why = reason(error.what());
     if (const auto slip = usual_slip(text_, position, why))
-      return report(
-          "", "broken JSON at " + place(text_, position) + ": " + printable(slip->got),
-          printable(slip->wanted), "syntax");
+      return report("", say("broken JSON at {}: {}", place(text_, position), slip->got),
+                    slip->wanted, "syntax");
     const auto split = why.rfind("; expected ");
-    return report(
-        "", "broken JSON at " + place(text_, position) + ": " + why.substr(0, split),
-        split == why.npos ? "valid JSON" : why.substr(split + 11), "syntax");
+    return report("",
+                  say("broken JSON at {}: {}", place(text_, position),
+                      in_words(why.substr(0, split))),
+                  split == why.npos ? tr("valid JSON") : in_words(why.substr(split + 11)),
+                  "syntax");
   }
 
   json take() { return std::move(root_); }
@@ -192,8 +231,8 @@ class Builder : public nlohmann::json_sax<json> {
   }
   bool open(json container) {
     if (stack_.size() == limits_.depth)
-      return report("", "objects and lists nested too deeply",
-                    "at most " + std::to_string(limits_.depth) + " levels", "depth");
+      return report("", tr("objects and lists nested too deeply"),
+                    say("at most {} levels", limits_.depth), "depth");
     json* node = put(std::move(container));
     stack_.push_back({node, ""});
     return true;
@@ -216,24 +255,24 @@ json parse(std::string_view text, const std::string& document,
            const ParseLimits& limits) {
   Problems problems{.document = document};
   if (text.size() > limits.bytes) {
-    problems.add({"", std::to_string(text.size()) + " bytes",
-                  "at most " + std::to_string(limits.bytes) + " bytes", "size"});
+    problems.add({"", say("{} bytes", text.size()), say("at most {} bytes", limits.bytes),
+                  "size"});
     problems.throw_if_any();
   }
   if (text.find_first_not_of(" \t\r\n") == text.npos) {
-    problems.add({"", "an empty document", "a JSON document", "syntax"});
+    problems.add({"", tr("an empty document"), tr("a JSON document"), "syntax"});
     problems.throw_if_any();
   }
   if (is_utf16(text)) {
-    problems.add({"", "UTF-16 or UTF-32", "JSON in UTF-8", "syntax"});
+    problems.add({"", tr("UTF-16 or UTF-32"), tr("JSON in UTF-8"), "syntax"});
     problems.throw_if_any();
   }
   Builder builder(text, problems, limits);
   json::sax_parse(text.begin(), text.end(), &builder);
   // The library ends at a NUL, whatever follows.
   if (const auto nul = text.find('\0'); nul != text.npos && problems.list.empty())
-    problems.add({"", "broken JSON at " + place(text, nul + 1) + ": a NUL", "valid JSON",
-                  "syntax"});
+    problems.add({"", say("broken JSON at {}: a NUL", place(text, nul + 1)),
+                  tr("valid JSON"), "syntax"});
   problems.throw_if_any();
   return builder.take();
 }

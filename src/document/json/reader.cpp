@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/say.hpp"
 #include "pointer.hpp"
 
 namespace turnwright::document {
@@ -22,30 +23,31 @@ std::string with_unit(std::string text, std::string_view unit) {
 std::string quoted_list(const std::vector<std::string>& words) {
   std::string out;
   for (std::size_t i = 0; i < words.size(); ++i) {
-    if (i > 0) out += i + 1 == words.size() ? " or " : ", ";
-    out += '"' + words[i] + '"';
+    const auto word = '"' + words[i] + '"';
+    if (i == 0)
+      out = word;
+    else if (i + 1 == words.size())
+      out = say("{} or {}", out, word);
+    else
+      out += ", " + word;
   }
   return out;
 }
 
 std::string expected_integer(long lower, long upper, std::string_view unit) {
-  return with_unit(
-      "a whole number from " + std::to_string(lower) + " to " + std::to_string(upper),
-      unit);
+  return with_unit(say("a whole number from {} to {}", lower, upper), unit);
 }
 
 std::string entries(std::size_t n) {
-  return std::to_string(n) + (n == 1 ? " entry" : " entries");
+  return n == 1 ? tr("1 entry") : say("{} entries", n);
 }
 
 std::string expected_array(std::size_t min, std::size_t max) {
-  const std::string lower = min == max ? "" : std::to_string(min) + " to ";
-  return "a list of " + lower + entries(max);
+  return min == max ? say("a list of {}", entries(max))
+                    : say("a list of {} to {}", min, entries(max));
 }
 
-std::string expected_text(std::size_t max) {
-  return "a text of 1 to " + std::to_string(max) + " bytes";
-}
+std::string expected_text(std::size_t max) { return say("a text of 1 to {} bytes", max); }
 
 // Levenshtein distance.
 std::size_t edits(std::string_view a, std::string_view b) {
@@ -83,8 +85,7 @@ void Problems::add(Problem problem) {
 void Problems::throw_if_any() const {
   if (list.empty()) return;
   auto told = list;
-  if (more > 0)
-    told.push_back({"", std::to_string(more) + " more problems", "none", "more"});
+  if (more > 0) told.push_back({"", say("{} more problems", more), tr("none"), "more"});
   throw InputError(document, told);
 }
 
@@ -111,15 +112,17 @@ bool contains(const Bounds& b, double x) {
 }
 
 std::string expected_number(const Bounds& b) {
-  std::string text = "a number";
   const bool low = std::isfinite(b.lower), high = std::isfinite(b.upper);
+  const auto unit = translated(b.unit);
+  if (!low && !high) return unit.empty() ? tr("a number") : say("a number in {}", unit);
+  const auto lower = number_text(b.lower), upper = number_text(b.upper);
+  const char* const above = b.lower_open ? ">" : ">=";
+  const char* const below = b.upper_open ? "<" : "<=";
   if (low && high && !b.lower_open && !b.upper_open)
-    return with_unit(
-        text + " from " + number_text(b.lower) + " to " + number_text(b.upper), b.unit);
-  if (low) text += (b.lower_open ? " > " : " >= ") + number_text(b.lower);
-  if (low && high) text += " and";
-  if (high) text += (b.upper_open ? " < " : " <= ") + number_text(b.upper);
-  return with_unit(low || high || b.unit.empty() ? text : text + " in", b.unit);
+    return with_unit(say("a number from {} to {}", lower, upper), unit);
+  if (low && high)
+    return with_unit(say("a number {} {} and {} {}", above, lower, below, upper), unit);
+  return with_unit(say("a number {} {}", low ? above : below, low ? lower : upper), unit);
 }
 
 std::string nearest(std::string_view word, const std::vector<std::string>& known) {
@@ -134,17 +137,22 @@ std::string nearest(std::string_view word, const std::vector<std::string>& known
   return best;
 }
 
+std::string did_you_mean(std::string_view expected, std::string_view near) {
+  return say("{} (did you mean \"{}\"?)", expected, near);
+}
+
 std::string number_text(double x) {
   const std::string s = nlohmann::json(x).dump();
   return s.ends_with(".0") ? s.substr(0, s.size() - 2) : s;
 }
 
 std::string shown(const nlohmann::json& value) {
-  if (value.is_object()) return "an object";
-  if (value.is_array() && value.empty()) return "an empty list";
+  if (value.is_object()) return tr("an object");
+  if (value.is_array() && value.empty()) return tr("an empty list");
   const bool nested =
       value.is_array() && std::any_of(value.begin(), value.end(), structured);
-  if (nested || value.size() > kShownEntries) return "a list of " + entries(value.size());
+  if (nested || value.size() > kShownEntries)
+    return say("a list of {}", entries(value.size()));
   std::string text = value.dump(-1, ' ', true);  // ASCII: may be cut anywhere
   if (text.size() > kShown) text = text.substr(0, kShown) + "...";
   return text;
@@ -169,7 +177,8 @@ void Reader::problem(std::string got, std::string expected, std::string code) co
 void Reader::problem_at(std::string_view key, std::string expected,
                         std::string code) const {
   const bool there = is_object() && value_->contains(key);
-  problems_->add({pointer_of(key), there ? shown((*value_)[std::string(key)]) : "nothing",
+  problems_->add({pointer_of(key),
+                  there ? shown((*value_)[std::string(key)]) : tr("nothing"),
                   std::move(expected), std::move(code)});
 }
 
@@ -193,9 +202,8 @@ double Reader::as_number(const Bounds& bounds) const {
 
 long Reader::as_integer(long lower, long upper, std::string_view unit) const {
   if (broken()) return lower;
-  const std::string expected = expected_integer(lower, upper, unit);
   if (!value_->is_number_integer()) {
-    problem(expected, "type");
+    problem(expected_integer(lower, upper, unit), "type");
     return lower;
   }
   // get<long>() would wrap an unsigned value beyond 2^63.
@@ -204,7 +212,7 @@ long Reader::as_integer(long lower, long upper, std::string_view unit) const {
                          static_cast<unsigned long>(std::numeric_limits<long>::max());
   const long x = wraps ? std::numeric_limits<long>::max() : value_->get<long>();
   if (wraps || x < lower || x > upper) {
-    problem(expected, "range");
+    problem(expected_integer(lower, upper, unit), "range");
     return lower;
   }
   return x;
@@ -213,7 +221,7 @@ long Reader::as_integer(long lower, long upper, std::string_view unit) const {
 bool Reader::as_boolean() const {
   if (broken()) return false;
   if (!value_->is_boolean()) {
-    problem("true or false", "type");
+    problem(tr("true or false"), "type");
     return false;
   }
   return value_->get<bool>();
@@ -235,18 +243,18 @@ std::string Reader::as_text(std::size_t max) const {
 
 std::size_t Reader::as_choice(const std::vector<std::string>& choices) const {
   if (broken()) return 0;
-  std::string expected = quoted_list(choices);
   if (!value_->is_string()) {
-    problem(expected, "type");
+    problem(quoted_list(choices), "type");
     return 0;
   }
   const auto& word = value_->get_ref<const std::string&>();
   const auto found = std::find(choices.begin(), choices.end(), word);
   if (found == choices.end()) {
     const std::string near = nearest(word, choices);
-    if (!near.empty() && choices.size() > 3)
-      expected += " (did you mean \"" + near + "\"?)";
-    problem(expected, "choice");
+    const bool long_list = choices.size() > 3;
+    const auto expected = quoted_list(choices);
+    problem(!near.empty() && long_list ? did_you_mean(expected, near) : expected,
+            "choice");
     return 0;
   }
   return static_cast<std::size_t>(found - choices.begin());
@@ -277,7 +285,7 @@ std::vector<double> Reader::as_numbers(const Bounds& bounds, std::size_t min,
 
 Reader Reader::as_object() const {
   if (broken() || is_object()) return *this;
-  problem("an object", "type");
+  problem(tr("an object"), "type");
   return {nullptr, problems_, pointer_};
 }
 
@@ -291,14 +299,23 @@ std::optional<Reader> Reader::find(std::string_view key) {
   return Reader(&(*value_)[std::string(key)], problems_, pointer_of(key));
 }
 
-Reader Reader::at(std::string_view key, std::string_view expected) {
+template <class Expected>
+Reader Reader::member(std::string_view key, const Expected& expected) {
   if (auto found = find(key)) return *found;
-  if (!broken()) problem_at(key, std::string(expected), "missing");
+  if (!broken()) problem_at(key, expected(), "missing");
   return {nullptr, problems_, pointer_of(key)};
 }
 
+Reader Reader::at(std::string_view key) {
+  return member(key, [] { return tr("a value"); });
+}
+
+Reader Reader::at(std::string_view key, std::string_view expected) {
+  return member(key, [&] { return std::string(expected); });
+}
+
 double Reader::number(std::string_view key, const Bounds& bounds) {
-  return at(key, expected_number(bounds)).as_number(bounds);
+  return member(key, [&] { return expected_number(bounds); }).as_number(bounds);
 }
 
 std::optional<double> Reader::optional_number(std::string_view key,
@@ -313,7 +330,8 @@ double Reader::number_or(std::string_view key, const Bounds& bounds, double fall
 
 long Reader::integer(std::string_view key, long lower, long upper,
                      std::string_view unit) {
-  return at(key, expected_integer(lower, upper, unit)).as_integer(lower, upper, unit);
+  return member(key, [&] { return expected_integer(lower, upper, unit); })
+      .as_integer(lower, upper, unit);
 }
 
 std::optional<long> Reader::optional_integer(std::string_view key, long lower, long upper,
@@ -328,7 +346,7 @@ long Reader::integer_or(std::string_view key, long lower, long upper, long fallb
 }
 
 bool Reader::boolean(std::string_view key) {
-  return at(key, "true or false").as_boolean();
+  return member(key, [] { return tr("true or false"); }).as_boolean();
 }
 
 bool Reader::boolean_or(std::string_view key, bool fallback) {
@@ -337,7 +355,7 @@ bool Reader::boolean_or(std::string_view key, bool fallback) {
 }
 
 std::string Reader::text(std::string_view key, std::size_t max) {
-  return at(key, expected_text(max)).as_text(max);
+  return member(key, [&] { return expected_text(max); }).as_text(max);
 }
 
 std::optional<std::string> Reader::optional_text(std::string_view key, std::size_t max) {
@@ -351,10 +369,12 @@ std::string Reader::text_or(std::string_view key, std::string fallback, std::siz
 
 std::size_t Reader::choice_index(std::string_view key,
                                  const std::vector<std::string>& choices) {
-  return at(key, quoted_list(choices)).as_choice(choices);
+  return member(key, [&] { return quoted_list(choices); }).as_choice(choices);
 }
 
-Reader Reader::object(std::string_view key) { return at(key, "an object").as_object(); }
+Reader Reader::object(std::string_view key) {
+  return member(key, [] { return tr("an object"); }).as_object();
+}
 
 std::optional<Reader> Reader::optional_object(std::string_view key) {
   const auto found = find(key);
@@ -363,7 +383,7 @@ std::optional<Reader> Reader::optional_object(std::string_view key) {
 
 std::vector<Reader> Reader::items(std::string_view key, std::size_t min,
                                   std::size_t max) {
-  return at(key, expected_array(min, max)).as_items(min, max);
+  return member(key, [&] { return expected_array(min, max); }).as_items(min, max);
 }
 
 std::vector<Reader> Reader::optional_items(std::string_view key, std::size_t min,
@@ -374,7 +394,8 @@ std::vector<Reader> Reader::optional_items(std::string_view key, std::size_t min
 
 std::vector<double> Reader::numbers(std::string_view key, const Bounds& bounds,
                                     std::size_t min, std::size_t max) {
-  return at(key, expected_array(min, max)).as_numbers(bounds, min, max);
+  return member(key, [&] { return expected_array(min, max); })
+      .as_numbers(bounds, min, max);
 }
 
 void Reader::finish() const {
@@ -383,10 +404,9 @@ void Reader::finish() const {
     if (std::find(asked_.begin(), asked_.end(), key) != asked_.end()) continue;
     const bool listed = problems_->list.size() < Problems::kListed;
     const std::string near = listed ? nearest(key, asked_) : "";
-    problem_at(
-        key,
-        near.empty() ? "no such key" : "no such key (did you mean \"" + near + "\"?)",
-        "unknown-key");
+    const auto expected = tr("no such key");
+    problem_at(key, near.empty() ? expected : did_you_mean(expected, near),
+               "unknown-key");
   }
 }
 

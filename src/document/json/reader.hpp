@@ -63,6 +63,9 @@ using Choices = std::vector<std::pair<std::string_view, E>>;
 /// The word of `known` that `word` most likely misspells; "" if none is similar.
 std::string nearest(std::string_view word, const std::vector<std::string>& known);
 
+/// What is expected, with such a word: "a face (did you mean "left"?)".
+std::string did_you_mean(std::string_view expected, std::string_view near);
+
 /// A number as on a drawing: 20 instead of 20.0, otherwise with all its digits.
 std::string number_text(double x);
 inline std::string mm_text(double mm) { return number_text(mm) + " mm"; }
@@ -103,7 +106,8 @@ class Reader {
   bool has(std::string_view key);
   /// A required member.  If it is missing this is reported with `expected`, and the
   /// reader returned is broken.
-  Reader at(std::string_view key, std::string_view expected = "a value");
+  Reader at(std::string_view key, std::string_view expected);
+  Reader at(std::string_view key);
   std::optional<Reader> find(std::string_view key);
 
   double number(std::string_view key, const Bounds& bounds);
@@ -163,6 +167,8 @@ class Reader {
  private:
   Reader(const nlohmann::json* value, Problems* problems, std::string pointer)
       : value_(value), problems_(problems), pointer_(std::move(pointer)) {}
+  template <class Expected>
+  Reader member(std::string_view key, const Expected& expected);
   std::size_t choice_index(std::string_view key, const std::vector<std::string>& words);
   template <class E>
   static std::vector<std::string> words(const Choices<E>& choices) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/say.hpp"
+
 namespace turnwright::document {
 namespace {
 
@@ -13,12 +15,12 @@ std::string expected_reference(const std::string& id,
                                const std::vector<std::string>& known,
                                const std::string& what) {
   const auto near = nearest(id, known);
-  if (!near.empty()) return what + " (did you mean \"" + near + "\"?)";
+  if (!near.empty()) return did_you_mean(what, near);
   std::string list;
   for (std::size_t i = 0; i < known.size() && i < kListed; ++i)
     list += (i > 0 ? ", \"" : "\"") + known[i] + '"';
   if (known.size() > kListed) list += ", ...";
-  return what + (list.empty() ? ", which has none" : ": " + list);
+  return list.empty() ? say("{}, which has none", what) : what + ": " + list;
 }
 
 std::string checked_reference(const Reader& value, const std::vector<std::string>& known,

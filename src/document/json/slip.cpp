@@ -3,14 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <utility>
+
+#include "base/say.hpp"
 
 namespace turnwright::document {
 namespace {
 
-bool digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
-bool letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) || c == '_'; }
+bool digit(char c) { return c >= '0' && c <= '9'; }
+bool letter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+}
 bool blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
 constexpr std::size_t kShownWord = 40;  // of a word
@@ -42,7 +45,7 @@ std::optional<Slip> decimal_comma(std::string_view text, std::size_t last) {
   const auto number = word.substr(0, word.find(',', comma + 1));
   std::string point(number);
   point[comma] = '.';
-  return Slip{std::string(number), fmt::format("{}, with a decimal point", point)};
+  return Slip{std::string(number), say("{}, with a decimal point", point)};
 }
 
 }  // namespace
@@ -59,13 +62,14 @@ std::optional<Slip> usual_slip(std::string_view text, std::size_t bytes_read,
   if (says("in object key") && digit(c))
     if (auto slip = decimal_comma(text, last)) return slip;
   if ((c == '}' || c == ']') && before(text, last) == ',')
-    return Slip{fmt::format("a comma before {}", c), "no comma behind the last one"};
+    return Slip{say("a comma before {}", c), tr("no comma behind the last one")};
   if (c == '/' && (next == '/' || next == '*'))
-    return Slip{fmt::format("/{}", next), "no comment: JSON has none"};
-  if (c == '#') return Slip{"#", "no comment: JSON has none"};
-  if (c == '\'') return Slip{"'", "double quotes"};
+    return Slip{fmt::format("/{}", next), tr("no comment: JSON has none")};
+  if (c == '#') return Slip{"#", tr("no comment: JSON has none")};
+  if (c == '\'') return Slip{"'", tr("double quotes")};
   if (c == ';' || c == '=')
-    return Slip{std::string(1, c), c == ';' ? "a comma between members" : "a colon"};
+    return Slip{std::string(1, c),
+                c == ';' ? tr("a comma between members") : tr("a colon")};
   for (const auto& [word, meant] :
        {std::pair{"True", "true"}, {"False", "false"}, {"None", "null"}})
     if (around(text, last, letter) == word) return Slip{word, meant};
@@ -80,18 +84,18 @@ std::optional<Slip> usual_slip(std::string_view text, std::size_t bytes_read,
   }
   if (says("in object key") && letter(c)) {
     const auto word = around(text, last, [](char x) { return letter(x) || digit(x); });
-    return Slip{std::string(word), fmt::format("\"{}\", in double quotes", word)};
+    return Slip{std::string(word), say("\"{}\", in double quotes", word)};
   }
   if (says("unexpected number literal")) {
     const auto word = around(text, last, [](char x) { return digit(x) || x == '.'; });
     if (word.size() > 1 && word[0] == '0' && digit(word[1]))
-      return Slip{std::string(word), "no zero before the other digits"};
+      return Slip{std::string(word), tr("no zero before the other digits")};
   }
   const bool another = says("unexpected string literal") ||
                        says("unexpected number literal") || says("unexpected '{'") ||
                        says("unexpected '['");
   if (another && (says("expected '}'") || says("expected ']'")))
-    return Slip{"two members or values side by side", "a comma between them"};
+    return Slip{tr("two members or values side by side"), tr("a comma between them")};
   return std::nullopt;
 }
 

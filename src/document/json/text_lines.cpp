@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/say.hpp"
+
 namespace turnwright::document {
 namespace {
 
@@ -27,13 +29,13 @@ std::vector<TextLine> text_lines(const Reader& value, const char* form) {
   } else if (value.is_array()) {
     for (const auto& item : value.json()) {
       if (!item.is_string()) {
-        value.problem(form, "type");
+        value.problem(tr(form), "type");
         return {};
       }
       lines.push_back({lines.size() + 1, item.get_ref<const std::string&>()});
     }
   } else {
-    value.problem(form, "type");
+    value.problem(tr(form), "type");
   }
   if (!lines.empty() && lines[0].text.starts_with(kByteOrderMark))
     lines[0].text.remove_prefix(kByteOrderMark.size());
@@ -50,10 +52,9 @@ bool are_text(const Reader& value, const std::vector<TextLine>& lines, const cha
     const auto at = std::ranges::find_if(line.text, control);
     if (at == line.text.end()) continue;
     value.problems().add({line_pointer(value, line.number),
-                          "the control character " +
-                              std::to_string(static_cast<int>(*at)) + " in column " +
-                              std::to_string(at - line.text.begin() + 1),
-                          form, "type"});
+                          say("the control character {} in column {}",
+                              static_cast<int>(*at), at - line.text.begin() + 1),
+                          tr(form), "type"});
     return false;
   }
   return true;

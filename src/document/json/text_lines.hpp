@@ -15,7 +15,7 @@ struct TextLine {
 };
 
 /// The lines of a text or of a list of lines, without their ends and without a byte order
-/// mark; they point into the document.  Another type is reported with `form`, what is
+/// mark; they point into the document.  Another type is reported with the text `form`, what is
 /// expected.
 std::vector<TextLine> text_lines(const Reader& value, const char* form);
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/say.hpp"
 #include "part_sections.hpp"
 #include "turnwright/part/wall.hpp"
 
@@ -15,11 +16,11 @@ void check_hole(const Reader& list, const part::Drawing& d) {
   for (std::size_t i = 0; i < d.inner.size(); ++i) {
     const auto [low, high] = std::minmax(d.inner[i].left_mm, d.inner[i].right_mm);
     if (low < d.stock.inner_mm)
-      items[i].problem("a bore narrower than the tube's hole",
-                       "diameters of at least " + hole, "conflict");
+      items[i].problem(tr("a bore narrower than the tube's hole"),
+                       say("diameters of at least {}", hole), "conflict");
     else if (high == d.stock.inner_mm)
-      items[i].problem("a bore that is the tube's hole",
-                       "a diameter above " + hole + ", or no bore: nothing is cut there",
+      items[i].problem(tr("a bore that is the tube's hole"),
+                       say("a diameter above {}, or no bore: nothing is cut there", hole),
                        "conflict");
   }
 }
@@ -43,9 +44,10 @@ void check_bores(Draft& draft) {
   for (const auto& e : d.inner) depth += e.length_mm;
   if (!d.inner.empty()) check_hole(*list, d);
   if (depth > part::length_mm(d) * (1 + 1e-12)) {
-    list->problem("bores of " + number_text(depth) + " mm in all",
-                  "at most the part's length, " + number_text(part::length_mm(d)) + " mm",
-                  "conflict");
+    list->problem(
+        say("bores of {} mm in all", number_text(depth)),
+        say("at most the part's length, {} mm", number_text(part::length_mm(d))),
+        "conflict");
     return;
   }
   const part::Wall wall = part::thinnest_wall(d);
@@ -56,10 +58,10 @@ void check_bores(Draft& draft) {
   const bool told = d.inner.empty() && std::ranges::any_of(d.outer, in_the_hole);
   if (wall.share >= kThin - 1e-9 || told) return;
   const Reader at = d.inner.empty() ? draft.root.at("stock") : *list;
-  at.problem("a wall of " + number_text(std::round(1e4 * wall.share) / 1e4) +
-                 " of the radius at z = " + number_text(wall.z_mm) + " mm",
-             "a wall of at least 0.2 of the radius: thinner ones ovalise, which a beam "
-             "does not show",
+  at.problem(say("a wall of {} of the radius at z = {} mm",
+                 number_text(std::round(1e4 * wall.share) / 1e4), number_text(wall.z_mm)),
+             tr("a wall of at least 0.2 of the radius: thinner ones ovalise, which a "
+                "beam does not show"),
              "conflict");
 }
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "base/say.hpp"
 #include "document/catalogue/entries.hpp"
 #include "part_sections.hpp"
 
@@ -11,7 +12,7 @@ void add_once(const Reader& item, std::vector<T>& list, T entry) {
   const bool twice = std::any_of(list.begin(), list.end(), [&](const auto& earlier) {
     return !entry.id.empty() && earlier.id == entry.id;
   });
-  if (twice) item.problem("each tool once", "duplicate");
+  if (twice) item.problem(tr("each tool once"), "duplicate");
   list.push_back(std::move(entry));
 }
 
@@ -101,8 +102,9 @@ void read_tools(Draft& draft, const catalogue::Shop& shop) {
         [](const auto& t) { return !catalogue::goes_behind_shoulders(t); });
     draft.undercut_tools.assign(behind, plan.tools.end());
     plan.tools.erase(behind, plan.tools.end());
-    draft.assume("/tools", ids(plan.tools),
-                 shop.tools.empty() ? "the whole catalogue" : "the tools of " + shop.id);
+    draft.assume(
+        "/tools", ids(plan.tools),
+        shop.tools.empty() ? tr("the whole catalogue") : say("the tools of {}", shop.id));
   }
   complete(draft, shop);
 }
@@ -139,8 +141,8 @@ void read_shop_rules(Draft& draft, const catalogue::Shop& shop) {
   for (const auto& most : {plan.rules.n_max_rpm, own.n_max_rpm})
     if (most && *most <= least)
       draft.root.problems().add({"/rules/n_max_rpm", number_text(*most),
-                                 "more than the " + number_text(least) +
-                                     " 1/min at which " + plan.machine.id + " begins",
+                                 say("more than the {} 1/min at which {} begins",
+                                     number_text(least), plan.machine.id),
                                  "conflict"});
   if (own.n_max_rpm)
     plan.rules.n_max_rpm =
@@ -171,17 +173,18 @@ void read_catalogue_choices(Draft& draft) {
   constexpr const char* kDefaultMachine = "lathe-medium";
   auto& plan = draft.plan();
   const auto& catalogue = draft.catalogue;
-  const auto material = draft.root.at("material", "the id of a material or its document");
+  const auto material =
+      draft.root.at("material", tr("the id of a material or its document"));
   plan.material = material_of(catalogue, material);
   if (material.is_text() && !plan.material.id.empty() &&
       material.json() != plan.material.id)
     draft.assume("/material", plan.material.id,
-                 "the catalogue has " + material.json().get<std::string>() + " as " +
-                     plan.material.name);
+                 say("the catalogue has {} as {}", material.json().get<std::string>(),
+                     plan.material.name));
   if (const auto machine = draft.root.find("machine")) {
     plan.machine = machine_of(catalogue, *machine);
   } else {
-    draft.assume("/machine", kDefaultMachine, "no machine given");
+    draft.assume("/machine", kDefaultMachine, tr("no machine given"));
     const nlohmann::json id = kDefaultMachine;
     plan.machine = machine_of(catalogue, Reader(id, draft.root.problems(), "/machine"));
   }

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <string>
 
+#include "base/say.hpp"
 #include "part_sections.hpp"
 #include "turnwright/base/pattern.hpp"
 
@@ -20,11 +21,10 @@ std::optional<CentreHole> read_designation(const Reader& r) {
   if (const auto m = kForm.match(text))
     found = part::centre_hole((*m)[1][0], decimal((*m)[2]), decimal((*m)[3]));
   if (!found && !text.empty())
-    r.problem(
-        "a centre hole of ISO 6411's form A, B or R with its pilot's and its largest "
-        "diameter, like \"A4/8.5\", \"B2.5/8\" or \"R4/8.5\"; a thread in a centre is an "
-        "inner thread",
-        "choice");
+    r.problem(tr("a centre hole of ISO 6411's form A, B or R with its pilot's and its "
+                 "largest diameter, like \"A4/8.5\", \"B2.5/8\" or \"R4/8.5\"; a thread "
+                 "in a centre is an inner thread"),
+              "choice");
   return found;
 }
 
@@ -63,26 +63,27 @@ void read_centre_holes(Draft& draft) {
     r = r.as_object();
     if (r.broken()) continue;
     const auto end = r.choice<End>("at", ends());
-    const auto found = read_designation(r.at("designation", "a centre hole"));
+    const auto found = read_designation(r.at("designation", tr("a centre hole")));
     r.finish();
     if (!found || !sizes_were_read(d)) continue;
     auto& mine = end == End::left ? d.left_centre : d.right_centre;
     const double D = face_mm(d, end);
     const double room = part::length_mm(d) - taken_mm(d, part::opposite(end));
     if (mine)
-      r.problem_at("at", "each end once", "duplicate");
+      r.problem_at("at", tr("each end once"), "duplicate");
     else if (is_hollow(d, end))
-      r.problem_at("at", "an end that is not hollow", "conflict");
+      r.problem_at("at", tr("an end that is not hollow"), "conflict");
     else if (!(found->diameter_mm < D))
-      r.problem_at("designation",
-                   "a centre hole that is less wide than the " + number_text(D) +
-                       " mm of that end's face",
-                   "conflict");
+      r.problem_at(
+          "designation",
+          say("a centre hole that is less wide than the {} mm of that end's face",
+              number_text(D)),
+          "conflict");
     else if (!(found->depth_mm < room))
       r.problem_at("designation",
-                   "a centre hole that is less deep than the " +
-                       number_text(std::round(1e3 * room) / 1e3) +
-                       " mm before what is drawn from the other end",
+                   say("a centre hole that is less deep than the {} mm before what is "
+                       "drawn from the other end",
+                       number_text(std::round(1e3 * room) / 1e3)),
                    "conflict");
     else
       mine = found;

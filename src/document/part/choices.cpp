@@ -5,6 +5,8 @@
 #include <optional>
 #include <string_view>
 
+#include "base/say.hpp"
+
 namespace turnwright::document {
 namespace {
 
@@ -21,35 +23,43 @@ std::string written(const json& object, const char* key) {
 
 std::string machine_name(const json& machine) {
   if (machine.is_string()) return machine.get<std::string>();
-  return machine.is_object() ? shown(machine.value("id", json("machine"))) : "machine";
+  return machine.is_object() ? shown(machine.value("id", json(tr("machine"))))
+                             : tr("machine");
 }
 
 std::string stock_name(const json& stock) {
-  if (!stock.is_object()) return "stock";
+  if (!stock.is_object()) return tr("stock");
   const auto kind = stock.value("kind", json());
-  if (kind == "casting" || kind == "forging") return kind.get<std::string>();
-  const std::string length = " x " + written(stock, "length_mm") + " mm";
+  if (kind == "casting") return tr("casting");
+  if (kind == "forging") return tr("forging");
+  const auto length = written(stock, "length_mm");
   if (kind == "tube")
-    return "tube " + written(stock, "outer_mm") + "/" + written(stock, "inner_mm") +
-           length;
-  if (kind == "hexagon" || kind == "square")
-    return kind.get<std::string>() + " bar " + written(stock, "across_flats_mm") + length;
-  return "bar " + written(stock, "diameter_mm") + length;
+    return say("tube {}/{} x {} mm", written(stock, "outer_mm"),
+               written(stock, "inner_mm"), length);
+  const auto flats = written(stock, "across_flats_mm");
+  if (kind == "hexagon") return say("hexagon bar {} x {} mm", flats, length);
+  if (kind == "square") return say("square bar {} x {} mm", flats, length);
+  return say("bar {} x {} mm", written(stock, "diameter_mm"), length);
+}
+
+// The end that is held first or then.
+std::string held(const json& hold, bool first) {
+  if (hold == "left") return first ? tr("held left") : tr(", then left");
+  if (hold == "right") return first ? tr("held right") : tr(", then right");
+  const auto end = hold.is_string() ? hold.get<std::string>() : std::string("?");
+  return first ? say("held {}", end) : say(", then {}", end);
 }
 
 std::string setups_name(const json& setups) {
   std::string all;
   if (setups.is_array())
-    for (const auto& setup : setups) {
-      const auto hold = setup.is_object() ? setup.value("hold", json()) : json();
-      all += (all.empty() ? "held " : ", then ") +
-             (hold.is_string() ? hold.get<std::string>() : std::string("?"));
-    }
+    for (const auto& setup : setups)
+      all += held(setup.is_object() ? setup.value("hold", json()) : json(), all.empty());
   return all;
 }
 
 std::string wear_name(const json& land) {
-  return "edges changed at " + (land.is_number() ? mm_text(land.get<double>()) : "?");
+  return say("edges changed at {}", land.is_number() ? mm_text(land.get<double>()) : "?");
 }
 
 // A list of the choice, and the member of the document that it is for.
@@ -72,7 +82,7 @@ std::vector<std::string> names_of(const json& list, const Choosable& c) {
   const auto plain = all;
   for (std::size_t i = 0; i < all.size(); ++i)
     if (std::count(plain.begin(), plain.end(), plain[i]) > 1)
-      all[i] += ", no. " + std::to_string(i + 1);
+      all[i] += say(", no. {}", i + 1);
   return all;
 }
 
@@ -150,7 +160,8 @@ void add_parted(const Variant& before, std::vector<Variant>& out) {
     const json bar = bar_to_part(before.document, hold);
     if (bar.is_null()) continue;
     Variant v = before;
-    v.name += (v.name.empty() ? "held " : "; held ") + hold + ", parted off a bar";
+    v.name +=
+        (v.name.empty() ? "" : "; ") + say("{}, parted off a bar", held(hold, true));
     v.document["setups"] = {{{"hold", hold}}};
     v.document["stock"] = bar;
     for (const char* key : {"/setups", "/stock"})
@@ -166,7 +177,7 @@ bool automatic(Reader& choose, const Choosable& c) {
 json choices_of(Reader& choose, const Choosable& c) {
   if (automatic(choose, c)) {
     if (choose.at(c.key).json() != "auto")
-      choose.problem_at(c.key, "\"auto\", or a list of lists of setups", "choice");
+      choose.problem_at(c.key, tr("\"auto\", or a list of lists of setups"), "choice");
     return automatic_setups();
   }
   json list = json::array();
@@ -208,12 +219,11 @@ std::vector<Variant> variants(const json& request, Problems& problems) {
   for (const auto& c : kChoosable) {
     if (!choose.has(c.key)) continue;
     if (request.contains(json::json_pointer(c.pointer)))
-      choose.problem_at(c.key, std::string("no choice, for ") + c.pointer + " is given",
-                        "conflict");
+      choose.problem_at(c.key, say("no choice, for {} is given", c.pointer), "conflict");
     const json list = choices_of(choose, c);
     const bool parted = automatic(choose, c);
     if (all.size() * (list.size() + (parted ? kParted : 0)) > kCombinations)
-      choose.problem_at(c.key, "at most 100 combinations in all", "limit");
+      choose.problem_at(c.key, tr("at most 100 combinations in all"), "limit");
     else
       all = combined(all, list, c, parted);
   }

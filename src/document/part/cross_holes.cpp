@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/say.hpp"
 #include "document/json/fields.hpp"
 #include "document/json/reference.hpp"
 #include "hole_tools.hpp"
@@ -22,7 +23,7 @@ void read_drills(Draft& draft, Reader& r, Milled& m) {
     std::vector<std::string> known;
     for (const auto& t : draft.plan().fixed_tools)
       if (t.use == catalogue::FixedUse::drilling) known.push_back(t.id);
-    m.drills = {checked_reference(r.at("tool"), known, "a drill of the tools")};
+    m.drills = {checked_reference(r.at("tool"), known, tr("a drill of the tools"))};
   }
   const bool asked = r.has("fit") || r.has("limits_mm");
   const auto limits =
@@ -41,8 +42,8 @@ void read_drills(Draft& draft, Reader& r, Milled& m) {
     r.problem_at(
         r.has("fit") ? "fit" : "limits_mm",
         made.empty()
-            ? "none: of no drill of this diameter it is known what it leaves"
-            : "no more than a drill leaves (" + made + "): a cross hole is not reamed",
+            ? tr("none: of no drill of this diameter it is known what it leaves")
+            : say("no more than a drill leaves ({}): a cross hole is not reamed", made),
         "conflict");
   m.drills = keeping;
 }
@@ -73,20 +74,22 @@ void open_into_bore(Reader& r, double R, const Behind& behind, Milled& m) {
   }
   r.problem_at("through",
                behind.least_mm > 0
-                   ? "part, or a hole narrower than the bore behind it, " +
-                         mm_text(2 * behind.least_mm)
-                   : "part, or a hole with a bore behind all of its width",
+                   ? say("part, or a hole narrower than the bore behind it, {}",
+                         mm_text(2 * behind.least_mm))
+                   : tr("part, or a hole with a bore behind all of its width"),
                "conflict");
 }
 
 void check_depth(Reader& r, double R, const Behind& behind, const Milled& m) {
   const double wall = behind.most_mm > 0 ? R - behind.most_mm : 2 * R;
   if (m.depth_mm >= wall)
-    r.problem_at("depth_mm",
-                 std::string("less than ") +
-                     (behind.most_mm > 0 ? "the wall over the hole" : "the diameter") +
-                     ", " + mm_text(wall) + ", or through in its place",
-                 "conflict");
+    r.problem_at(
+        "depth_mm",
+        behind.most_mm > 0
+            ? say("less than the wall over the hole, {}, or through in its place",
+                  mm_text(wall))
+            : say("less than the diameter, {}, or through in its place", mm_text(wall)),
+        "conflict");
 }
 
 }  // namespace
@@ -98,7 +101,7 @@ void read_cross_hole(Draft& draft, Reader& r, const part::OuterElement* on, Mill
   if (r.has("through")) {
     m.through = r.choice<Through>("through", named({Through::wall, Through::part}));
     if (r.has("depth_mm"))
-      r.problem_at("through", "depth_mm or through, not both", "conflict");
+      r.problem_at("through", tr("depth_mm or through, not both"), "conflict");
   }
   if (m.through == Through::no && !r.has("through"))
     m.depth_mm = r.number("depth_mm", above_up_to(0, 500, "mm"));
@@ -113,16 +116,16 @@ void check_cross_hole(const part::Drawing& d, Reader& r, Milled& m) {
   const double z0 = part::left_z_mm(d, m.element), z1 = z0 + e.length_mm;
   if (D >= 2 * R)
     return r.problem_at("diameter_mm",
-                        "less than the diameter of " + e.id + ", " + mm_text(2 * R),
+                        say("less than the diameter of {}, {}", e.id, mm_text(2 * R)),
                         "conflict");
   if (D > e.length_mm + kSlack_mm)
     return r.problem_at("diameter_mm",
-                        "at most the length of " + e.id + ", " + mm_text(e.length_mm),
+                        say("at most the length of {}, {}", e.id, mm_text(e.length_mm)),
                         "conflict");
   if (m.z_mm < z0 - kSlack_mm || m.z_mm + D > z1 + kSlack_mm)
     return r.problem_at("at_mm",
-                        "a hole that lies on " + e.id + ", its middle from " +
-                            mm_text(z0 + D / 2) + " to " + mm_text(z1 - D / 2),
+                        say("a hole that lies on {}, its middle from {} to {}", e.id,
+                            mm_text(z0 + D / 2), mm_text(z1 - D / 2)),
                         "conflict");
   const auto behind = behind_of(d, m);
   if (m.through == Through::wall)

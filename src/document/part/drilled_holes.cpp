@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "base/say.hpp"
 #include "hole_tools.hpp"
 #include "turnwright/base/units.hpp"
 #include "turnwright/planning/plan_request.hpp"
@@ -122,8 +123,9 @@ void refuse_demands(const Draft& draft, Reader hole, const HoleDemand& w) {
     for (const auto* t : tools)
       made += (made.empty() ? "" : "; ") + t->id + " " + promise(*t);
     hole.problem_at(key,
-                    "no more than a drill, a flat drill or a reamer leaves (" + made +
-                        "), or \"cylinder\" as kind, which is bored",
+                    say("no more than a drill, a flat drill or a reamer leaves ({}), or "
+                        "\"cylinder\" as kind, which is bored",
+                        made),
                     "conflict");
   };
   const auto none = [&](const auto& leaves) {
@@ -139,12 +141,11 @@ void refuse_demands(const Draft& draft, Reader hole, const HoleDemand& w) {
 std::optional<MadeHole> asked_hole(const Draft& draft, Reader item, std::size_t i,
                                    HoleDemand w) {
   if (!plain(draft, i))
-    item.problem_at(
-        "kind",
-        "\"cylinder\" as kind, which is bored, or no other edges than chamfers where "
-        "the hole begins or leaves the part, of the angle of a countersink of the "
-        "tools",
-        "conflict");
+    item.problem_at("kind",
+                    tr("\"cylinder\" as kind, which is bored, or no other edges than "
+                       "chamfers where the hole begins or leaves the part, of the angle "
+                       "of a countersink of the tools"),
+                    "conflict");
   w.limits = given_limits(item, w.D_mm);
   w.Ra_um = item.optional_number("Ra_um", above_up_to(0, 100, "um"));
   if (w.limits || w.Ra_um) {
@@ -156,7 +157,7 @@ std::optional<MadeHole> asked_hole(const Draft& draft, Reader item, std::size_t 
     const auto why = why_not(draft, w);
     if (!why.empty() && item.problems().list.size() == before)
       item.problem_at(w.limits ? item.has("fit") ? "fit" : "limits_mm" : "Ra_um",
-                      "what the tools can keep here: " + why, "conflict");
+                      say("what the tools can keep here: {}", why), "conflict");
   }
   if (!w.takes_drill(w.D_mm)) return counterbored_hole(draft, i, w);
   return MadeHole{part::hole(w.D_mm), "", "drilled"};
@@ -263,7 +264,7 @@ void countersink_tapped(Draft& draft, const Reader& item, std::size_t i) {
   if (!(axial < bore.length_mm)) return;
   (left ? bore.left_chamfer : bore.right_chamfer) = part::Chamfer{axial, radial};
   draft.assume(item.pointer_of("kind"), {{"countersunk_to_mm", D}},
-               "1.05 times the thread's diameter (DIN 76-1), by " + t->id);
+               say("1.05 times the thread's diameter (DIN 76-1), by {}", t->id));
 }
 
 void make(Draft& draft, const Reader& item, std::size_t i, const MadeHole& hole) {
@@ -301,10 +302,10 @@ void read_drilled_holes(Draft& draft) {
       else if (part::is_hole(d.inner[i]))
         items[i].problem_at(
             "kind",
-            bar ? "a hole that is the innermost bore of its end, or is "
-                  "made by the drill of the hole behind it or a flat drill, "
-                  "at least 1 mm narrower than the bores before it"
-                : "a bore: a tube is not drilled",
+            bar ? tr("a hole that is the innermost bore of its end, or is made by the "
+                     "drill of the hole behind it or a flat drill, at least 1 mm "
+                     "narrower than the bores before it")
+                : tr("a bore: a tube is not drilled"),
             "conflict");
     }
   }

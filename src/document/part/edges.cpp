@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/say.hpp"
 #include "document/json/fields.hpp"
 #include "document/json/reference.hpp"
 #include "part_sections.hpp"
@@ -175,7 +176,7 @@ void read_chamfer(const Draft& draft, Reader& r, const Step& step, double most_m
   const double angle = r.number_or("angle_deg", within(1, 89, "deg"), 45);
   auto& mine = chamfer_at(e, step.end);
   if (mine) {
-    r.problem_at("at", "each edge once", "duplicate");
+    r.problem_at("at", tr("each edge once"), "duplicate");
     return;
   }
   // As drawn once its element is ground or knurled.
@@ -186,25 +187,29 @@ void read_chamfer(const Draft& draft, Reader& r, const Step& step, double most_m
   if (!std::isfinite(axial) || !std::isfinite(angle)) return;  // reported already
   if (!step.plain)
     r.problem_at("at",
-                 "an edge of a cylinder, a thread or a hole that has no arc beside it "
-                 "and is in no neck",
+                 tr("an edge of a cylinder, a thread or a hole that has no arc beside it "
+                    "and is in no neck"),
                  "conflict");
   else if (!(radial > 0))
     r.problem_at("chamfer_mm",
-                 "a chamfer that takes more than " + rounded(-more) +
-                     " mm of the radius: so much lower " + e.id +
-                     " is turned before it is knurled",
+                 say("a chamfer that takes more than {} mm of the radius: so much lower "
+                     "{} is turned before it is knurled",
+                     rounded(-more), e.id),
                  "conflict");
   else if (!(turned < free))
     r.problem_at("chamfer_mm",
-                 "less than the " + rounded(free) + " mm that " + e.id + " is long" +
-                     (taken > 0 ? " beside the edge at its other end" : ""),
+                 taken > 0
+                     ? say("less than the {} mm that {} is long beside the edge at its "
+                           "other end",
+                           rounded(free), e.id)
+                     : say("less than the {} mm that {} is long", rounded(free), e.id),
                  "conflict");
   else if (!(radial <= most_mm))
-    r.problem_at("chamfer_mm",
-                 "a chamfer that takes at most " + at_most(most_mm) +
-                     " mm of the radius there (this one takes " + rounded(radial) + ")",
-                 "conflict");
+    r.problem_at(
+        "chamfer_mm",
+        say("a chamfer that takes at most {} mm of the radius there (this one takes {})",
+            at_most(most_mm), rounded(radial)),
+        "conflict");
   else
     mine = part::Chamfer{turned, radial, step.by_blade};
 }
@@ -219,26 +224,26 @@ void read_rounding(const Draft& draft, Reader& r, const Step& step, double most_
   auto& mine = chamfer_at(e, step.end);
   const double free = e.length_mm - edge_length_mm(e, opposite(step.end));
   if (mine)
-    r.problem_at("at", "each edge once", "duplicate");
+    r.problem_at("at", tr("each edge once"), "duplicate");
   else if (!step.plain || step.by_blade || e.cut)
     r.problem_at("at",
-                 "an edge of a cylinder that has no arc or groove beside it: only a "
-                 "chamfer_mm is cut there",
+                 tr("an edge of a cylinder that has no arc or groove beside it: only a "
+                    "chamfer_mm is cut there"),
                  "conflict");
   else if (draft.ground(e.id) > 0)
-    r.problem_at("radius_mm",
-                 "a chamfer_mm: " + e.id +
-                     " is ground, which would leave a part of the "
-                     "radius alone",
-                 "conflict");
+    r.problem_at(
+        "radius_mm",
+        say("a chamfer_mm: {} is ground, which would leave a part of the radius alone",
+            e.id),
+        "conflict");
   else if (!(chamfer_at(e, opposite(step.end)) ? radius <= free + kDiffers_mm
                                                : radius < free))
     r.problem_at("radius_mm",
-                 "less than the " + rounded(free) + " mm that are free of " + e.id,
+                 say("less than the {} mm that are free of {}", rounded(free), e.id),
                  "conflict");
   else if (!(radius <= most_mm))
     r.problem_at("radius_mm",
-                 "a radius that takes at most " + at_most(most_mm) + " mm there",
+                 say("a radius that takes at most {} mm there", at_most(most_mm)),
                  "conflict");
   else
     mine = part::Chamfer{.axial_mm = radius, .radial_mm = radius, .round = true};
@@ -247,7 +252,7 @@ void read_rounding(const Draft& draft, Reader& r, const Step& step, double most_
 template <class Element>
 void read_fillet(Reader& r, const Step& step, Element& e) {
   auto& mine = opposite(step.end) == End::left ? e.left_fillet_mm : e.right_fillet_mm;
-  if (mine) r.problem_at("at", "each corner once", "duplicate");
+  if (mine) r.problem_at("at", tr("each corner once"), "duplicate");
   mine = r.number("fillet_mm", above_up_to(0, 100, "mm"));
 }
 
@@ -259,11 +264,11 @@ std::optional<part::Undercut> read_thread_undercut(const Reader& r, double pitch
   if (const auto m = kForm.match(text)) {
     found = part::thread_undercut((*m)[1][0], pitch_mm);
     if (!found)
-      r.problem("a thread with a pitch of DIN 76's table, 0.5 to 6 mm, not " +
-                    number_text(pitch_mm) + " mm",
+      r.problem(say("a thread with a pitch of DIN 76's table, 0.5 to 6 mm, not {} mm",
+                    number_text(pitch_mm)),
                 "choice");
   } else if (!text.empty()) {
-    r.problem("an undercut of DIN 76 behind a thread, \"DIN 76-A\" or \"DIN 76-B\"",
+    r.problem(tr("an undercut of DIN 76 behind a thread, \"DIN 76-A\" or \"DIN 76-B\""),
               "choice");
   }
   return found;
@@ -278,10 +283,9 @@ std::optional<part::Undercut> read_undercut(const Reader& r) {
   if (const auto m = kForm.match(text))
     found = part::undercut((*m)[1][0], decimal((*m)[2]), decimal((*m)[3]));
   if (!found && !text.empty())
-    r.problem(
-        "an undercut of DIN 509 with a radius and a depth of its table: of form E or F "
-        "like \"E0.8x0.3\", \"G0.4x0.2\", \"H0.8x0.3\" or \"H1.2x0.3\"",
-        "choice");
+    r.problem(tr("an undercut of DIN 509 with a radius and a depth of its table: of form "
+                 "E or F like \"E0.8x0.3\", \"G0.4x0.2\", \"H0.8x0.3\" or \"H1.2x0.3\""),
+              "choice");
   return found;
 }
 
@@ -299,18 +303,18 @@ void read_undercut(const Draft& draft, Reader& r, const Step& step, double most_
   found->depth_mm += more;
   found->width_mm += more / std::tan(part::falls_rad(*found));
   if (mine)
-    r.problem_at("at", "each corner once", "duplicate");
+    r.problem_at("at", tr("each corner once"), "duplicate");
   else if (!can_have_edge(e) || part::is_knurled(e))
-    r.problem_at("at", "the inner corner beside a cylinder or a thread", "conflict");
+    r.problem_at("at", tr("the inner corner beside a cylinder or a thread"), "conflict");
   else if (!(found->width_mm < free))
     r.problem_at("undercut",
-                 "an undercut that is less wide than the " + rounded(free) +
-                     " mm that are left of " + e.id,
+                 say("an undercut that is less wide than the {} mm that are left of {}",
+                     rounded(free), e.id),
                  "conflict");
   else if (part::height_mm(*found) - found->depth_mm > most_mm)
     r.problem_at(
         "undercut",
-        "an undercut that takes at most " + at_most(most_mm) + " mm of the shoulder",
+        say("an undercut that takes at most {} mm of the shoulder", at_most(most_mm)),
         "conflict");
   else
     mine = found;
@@ -323,7 +327,7 @@ void read_edge(Draft& draft, Reader& r, const std::vector<Step>& all) {
     names.insert(names.end(), s.names.begin(), s.names.end());
     told.push_back(s.names.front());
   }
-  const auto at = r.at("at", "the name of an edge");
+  const auto at = r.at("at", tr("the name of an edge"));
   const auto id = at.as_text();
   const auto step = std::find_if(all.begin(), all.end(), [&](const Step& s) {
     return std::find(s.names.begin(), s.names.end(), id) != s.names.end();
@@ -332,12 +336,13 @@ void read_edge(Draft& draft, Reader& r, const std::vector<Step>& all) {
              fillet = r.has("fillet_mm"), undercut = r.has("undercut");
   const int asked = chamfer + radius + fillet + undercut;
   if (!id.empty() && !all.empty() && step == all.end())
-    at.problem(expected_reference(id, told, "an edge of the part"), "unknown-id");
+    at.problem(expected_reference(id, told, tr("an edge of the part")), "unknown-id");
   if (asked != 1)
-    r.problem(asked == 0 ? "an edge without a shape" : "an edge with several shapes",
-              "chamfer_mm or radius_mm for the edge, or fillet_mm or undercut for the "
-              "inner corner at its foot",
-              "conflict");
+    r.problem(
+        asked == 0 ? tr("an edge without a shape") : tr("an edge with several shapes"),
+        tr("chamfer_mm or radius_mm for the edge, or fillet_mm or undercut for the inner "
+           "corner at its foot"),
+        "conflict");
   if (step == all.end() || asked != 1) {
     for (const char* key :
          {"chamfer_mm", "angle_deg", "radius_mm", "fillet_mm", "undercut"})
@@ -354,12 +359,12 @@ void read_edge(Draft& draft, Reader& r, const std::vector<Step>& all) {
     read_undercut(draft, r, *step, step->most_mm - (edge ? edge->radial_mm : 0),
                   d.outer[*step->lower]);
   } else if (undercut) {
-    r.problem_at("undercut", "the inner corner between two outer elements, \"d1|d2\"",
+    r.problem_at("undercut", tr("the inner corner between two outer elements, \"d1|d2\""),
                  "conflict");
   } else if (!step->lower) {
     r.problem_at(
         "fillet_mm",
-        "a chamfer_mm or radius_mm: there is no inner corner at a face of the part",
+        tr("a chamfer_mm or radius_mm: there is no inner corner at a face of the part"),
         "conflict");
   } else {
     step->inner ? read_fillet(r, *step, d.inner[*step->lower])
@@ -388,7 +393,7 @@ void read_general_edges(Draft& draft) {
   if (!given) return;
   const auto sizes = given->as_numbers(above_up_to(0, 5, "mm"), 2, 2);
   if (sizes.size() != 2) return;
-  if (sizes[0] > sizes[1]) given->problem("the smaller size first", "order");
+  if (sizes[0] > sizes[1]) given->problem(tr("the smaller size first"), "order");
   auto& d = draft.drawing();
   if (!sizes_were_read(d) || features(d).empty()) return;
   const double size = (sizes[0] + sizes[1]) / 2;

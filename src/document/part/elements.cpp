@@ -2,6 +2,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "base/say.hpp"
 #include "document/json/fields.hpp"
 #include "document/json/reference.hpp"
 #include "part_sections.hpp"
@@ -42,8 +43,8 @@ std::optional<part::Limits> limits_of_fit(Reader& r, const std::string& fit,
   if (is_upper(fit[0]) != (side == Side::inner)) {
     r.problem_at("fit",
                  side == Side::outer
-                     ? "a shaft's tolerance class, with a small letter, like \"h6\""
-                     : "a bore's tolerance class, with a capital letter, like \"H7\"",
+                     ? tr("a shaft's tolerance class, with a small letter, like \"h6\"")
+                     : tr("a bore's tolerance class, with a capital letter, like \"H7\""),
                  "choice");
     return std::nullopt;
   }
@@ -51,8 +52,7 @@ std::optional<part::Limits> limits_of_fit(Reader& r, const std::string& fit,
   try {
     return tolerance::fit_limits_mm(diameter_mm, fit);
   } catch (const std::domain_error& error) {
-    r.problem_at("fit", std::string("an ISO 286 tolerance class (") + error.what() + ")",
-                 "choice");
+    r.problem_at("fit", say("an ISO 286 tolerance class ({})", error.what()), "choice");
     return std::nullopt;
   }
 }
@@ -70,12 +70,13 @@ void read_size(Reader& r, Element& e, Side side) {
   e.fit = r.optional_text("fit", 8);
   if (r.has("limits_mm")) {
     e.limits = read_limits(r);
-    if (e.fit) r.problem_at("limits_mm", "fit or limits_mm, not both", "conflict");
+    if (e.fit) r.problem_at("limits_mm", tr("fit or limits_mm, not both"), "conflict");
     if (smallest_mm + e.limits->lower_mm <= 0)
-      r.problem_at("limits_mm", "limits that leave a diameter > 0 mm", "conflict");
+      r.problem_at("limits_mm", tr("limits that leave a diameter > 0 mm"), "conflict");
   } else if (e.fit && !e.fit->empty()) {
     if (e.kind == ElementKind::cone)
-      r.problem_at("fit", "limits_mm: a cone has no single size for a fit", "conflict");
+      r.problem_at("fit", tr("limits_mm: a cone has no single size for a fit"),
+                   "conflict");
     else
       e.limits = limits_of_fit(r, *e.fit, e.left_mm, side);
   }
@@ -98,13 +99,15 @@ void read_grinding(Draft& draft, Reader& r, Element& e, Side side) {
   if (!given || !std::isfinite(*given + e.left_mm + e.right_mm)) return;
   const double by = side == Side::outer ? *given : -*given;
   if (!(std::min(e.left_mm, e.right_mm) + by > 0))
-    return r.problem_at("grinding_allowance_mm", "less than the diameter", "conflict");
+    return r.problem_at("grinding_allowance_mm", tr("less than the diameter"),
+                        "conflict");
   e.ground_to = drawn_size(e);
   e.left_mm += by;
   e.right_mm += by;
   for (const char* key : {"fit", "limits_mm", "Ra_um", "Rz_um"})
     if (const auto value = r.find(key); value && !value->broken())
-      draft.assume(r.pointer_of(key), value->json(), "made by grinding: not predicted");
+      draft.assume(r.pointer_of(key), value->json(),
+                   tr("made by grinding: not predicted"));
   const double half = *given * kShareOfAllowance / 2;
   e.fit.reset();
   e.Ra_um.reset();
@@ -112,8 +115,8 @@ void read_grinding(Draft& draft, Reader& r, Element& e, Side side) {
   e.limits = part::Limits{-half, half};
   draft.ground_mm[e.id] = *given;
   draft.assume(r.pointer_of("limits_mm"), {-half, half},
-               "a third of the grinding allowance, about the " + number_text(e.left_mm) +
-                   " mm that are turned");
+               say("a third of the grinding allowance, about the {} mm that are turned",
+                   number_text(e.left_mm)));
 }
 
 // A knurl raises the diameter that is turned to the one that is drawn.
@@ -124,22 +127,22 @@ void read_knurl(Draft& draft, Reader& r, part::OuterElement& e) {
   const auto knurl = part::knurl(text);
   if (!knurl) {
     if (!text.empty())
-      given->problem(
-          "a knurl of DIN 82, RAA, RBL, RBR, RGE, RGV, RKE or RKV with a pitch of 0.5, "
-          "0.6, 0.8, 1, 1.2 or 1.6 mm, like \"RAA0.8\"",
-          "choice");
+      given->problem(tr("a knurl of DIN 82, RAA, RBL, RBR, RGE, RGV, RKE or RKV with a "
+                        "pitch of 0.5, 0.6, 0.8, 1, 1.2 or 1.6 mm, like \"RAA0.8\""),
+                     "choice");
     return;
   }
   const double d1 = e.left_mm;
   if (r.has("grinding_allowance_mm"))
-    r.problem_at("knurl", "knurl or grinding_allowance_mm, not both", "conflict");
+    r.problem_at("knurl", tr("knurl or grinding_allowance_mm, not both"), "conflict");
   else if (knurl->pitch_mm > d1 / 3)
-    r.problem_at("knurl", "a pitch of at most a third of the diameter", "conflict");
+    r.problem_at("knurl", tr("a pitch of at most a third of the diameter"), "conflict");
   else if (std::isfinite(d1)) {
     const auto s = part::knurled(d1, *knurl);
-    draft.assume(r.pointer_of("diameter_mm"), s.blank.left_mm,
-                 "turned so before knurling, which raises it to the " + number_text(d1) +
-                     " mm that are drawn");
+    draft.assume(
+        r.pointer_of("diameter_mm"), s.blank.left_mm,
+        say("turned so before knurling, which raises it to the {} mm that are drawn",
+            number_text(d1)));
     make_at_catalogue_conditions(draft, r, e, s.cut);
     e.left_mm = e.right_mm = s.blank.left_mm;
     draft.ground_mm[e.id] = s.blank.left_mm - d1;
@@ -155,7 +158,8 @@ void read_shape(Draft& draft, Reader& r, Element& e, Side side) {
     e.left_mm = r.number("left_mm", kSize);
     e.right_mm = r.number("right_mm", kSize);
     if (e.left_mm == e.right_mm)
-      r.problem_at("right_mm", "another diameter than left_mm (else say \"cylinder\")",
+      r.problem_at("right_mm",
+                   tr("another diameter than left_mm (else say \"cylinder\")"),
                    "conflict");
   }
   read_size(r, e, side);
@@ -182,10 +186,11 @@ void read_list(Draft& draft, std::vector<Element>& list, const std::vector<Reade
     Element e;
     e.id = read_id(r);
     if (e.id == "left" || e.id == "right")
-      r.problem_at("id", "an id other than \"left\" and \"right\", which name the ends",
+      r.problem_at("id",
+                   tr("an id other than \"left\" and \"right\", which name the ends"),
                    "conflict");
     if (!e.id.empty() && std::find(ids.begin(), ids.end(), e.id) != ids.end())
-      r.problem_at("id", "an id no other element has", "duplicate");
+      r.problem_at("id", tr("an id no other element has"), "duplicate");
     ids.push_back(e.id);
     const auto shape = r.choice<std::optional<Shape>>("kind", shapes(side));
     if constexpr (std::is_same_v<Element, part::InnerElement>)
@@ -212,11 +217,11 @@ void read_faces(Draft& draft) {
   for (Reader r : draft.root.optional_items("faces", 0, 200)) {
     r = r.as_object();
     part::Face face;
-    const Reader id = r.at("id", "the id of a face");
-    face.id = checked_wall(id, d, checked_reference(id, known, "a face of the part"));
+    const Reader id = r.at("id", tr("the id of a face"));
+    face.id = checked_wall(id, d, checked_reference(id, known, tr("a face of the part")));
     for (const auto& earlier : faces)
       if (!face.id.empty() && earlier.id == face.id)
-        r.problem_at("id", "each face once", "duplicate");
+        r.problem_at("id", tr("each face once"), "duplicate");
     read_roughness(r, face.Ra_um, face.Rz_um);
     r.finish();
     faces.push_back(std::move(face));
@@ -240,9 +245,9 @@ std::string checked_wall(const Reader& value, const part::Drawing& d, std::strin
   const auto wall = part::inner_shoulder(d, id);
   if (!wall) return id;
   if (part::is_hole(d.inner[wall->wider]))
-    value.problem(
-        "the shoulder of a bore that is bored: none of what a drill makes is predicted",
-        "unsupported");
+    value.problem(tr("the shoulder of a bore that is bored: none of what a drill makes "
+                     "is predicted"),
+                  "unsupported");
   return wall->id;
 }
 

@@ -3,6 +3,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "base/say.hpp"
 #include "document/json/fields.hpp"
 #include "part_sections.hpp"
 #include "turnwright/base/pattern.hpp"
@@ -20,9 +21,9 @@ void read_demands(Draft& draft, Reader& r, double least_mm) {
   r.optional_number("Ra_um", above_up_to(0, 100, "um"));
   r.optional_number("Rz_um", above_up_to(0, 400, "um"));
   if (r.has("limits_mm") && least_mm + read_limits(r).lower_mm <= 0)
-    r.problem_at("limits_mm", "limits that leave a diameter > 0 mm", "conflict");
+    r.problem_at("limits_mm", tr("limits that leave a diameter > 0 mm"), "conflict");
   if (r.has("fit") && r.has("limits_mm"))
-    r.problem_at("limits_mm", "fit or limits_mm, not both", "conflict");
+    r.problem_at("limits_mm", tr("fit or limits_mm, not both"), "conflict");
   leave_to_the_tool(draft, r);
 }
 
@@ -36,17 +37,17 @@ Size read_designation(Reader& r) {
   const auto text = r.text("designation", 20);
   for (const char* key : {"diameter_mm", "pitch_mm"})
     if (r.has(key))
-      r.problem_at(key, "designation, or diameter_mm and pitch_mm, not both", "conflict");
+      r.problem_at(key, tr("designation, or diameter_mm and pitch_mm, not both"),
+                   "conflict");
   if (text.empty()) return {};
   if (const auto inch = part::inch_thread(text)) return {inch->d_mm, inch->pitch_mm};
   const auto metric = part::metric_thread(text);
   if (metric && metric->pitch_mm) return {metric->d_mm, *metric->pitch_mm};
-  r.problem_at(
-      "designation",
-      metric ? "a pitch too: \"" + text + "\" has no coarse one"
-             : "an ISO metric thread like \"M30x1.5\" or \"M30\", or a Unified inch "
-               "thread like \"1/2-13 UNC\"",
-      "choice");
+  r.problem_at("designation",
+               metric ? say("a pitch too: \"{}\" has no coarse one", text)
+                      : tr("an ISO metric thread like \"M30x1.5\" or \"M30\", or a "
+                           "Unified inch thread like \"1/2-13 UNC\""),
+               "choice");
   return {};
 }
 
@@ -60,11 +61,11 @@ Size read_thread_size(Draft& draft, Reader& r) {
   } else if (!coarse) {
     if (std::isfinite(s.d_mm))
       r.problem_at("pitch_mm",
-                   "a pitch: " + number_text(s.d_mm) + " mm has no coarse one",
+                   say("a pitch: {} mm has no coarse one", number_text(s.d_mm)),
                    "conflict");
   } else {
     s.P_mm = *coarse;
-    draft.assume(r.pointer_of("pitch_mm"), s.P_mm, "the coarse pitch of ISO 261");
+    draft.assume(r.pointer_of("pitch_mm"), s.P_mm, tr("the coarse pitch of ISO 261"));
   }
   return s;
 }
@@ -73,7 +74,7 @@ void check_thread_class(Reader& r) {
   static const Pattern kClass("[3-9][a-hA-H]([3-9][a-hA-H])?|[123][AB]");
   const auto fit = r.optional_text("fit", 8);
   if (fit && !fit->empty() && !kClass.match(*fit))
-    r.problem_at("fit", "a thread's tolerance class like \"6g\", \"6H\" or \"2A\"",
+    r.problem_at("fit", tr("a thread's tolerance class like \"6g\", \"6H\" or \"2A\""),
                  "choice");
 }
 
@@ -84,11 +85,11 @@ part::Shaped read_thread(Draft& draft, Reader& r, Where where) {
   const char* key = r.has("designation") ? "designation" : "pitch_mm";
   if (!(s.d_mm > 0 && s.d_mm <= 20000 && s.P_mm > 0)) {
     if (r.has("designation") && std::isfinite(s.d_mm))
-      r.problem_at(key, "a diameter > 0 and <= 20000 mm and a pitch > 0 mm", "range");
+      r.problem_at(key, tr("a diameter > 0 and <= 20000 mm and a pitch > 0 mm"), "range");
     return {};
   }
   if (s.P_mm > s.d_mm / 3)
-    r.problem_at(key, "a pitch of at most a third of the diameter", "conflict");
+    r.problem_at(key, tr("a pitch of at most a third of the diameter"), "conflict");
   return part::thread(s.d_mm, s.P_mm, where);
 }
 
@@ -100,9 +101,7 @@ double read_diameter(Draft& draft, Reader& r) {
     try {
       tolerance::fit_limits_mm(floor, *fit);
     } catch (const std::domain_error& error) {
-      r.problem_at("fit",
-                   std::string("an ISO 286 tolerance class (") + error.what() + ")",
-                   "choice");
+      r.problem_at("fit", say("an ISO 286 tolerance class ({})", error.what()), "choice");
     }
   }
   read_demands(draft, r, floor);
@@ -113,7 +112,7 @@ part::Shaped read_arc(Draft& draft, Reader& r, double length_mm) {
   const part::Ends ends{r.number("left_mm", kSize), r.number("right_mm", kSize)};
   const double radius = r.number("radius_mm", kSize);
   const bool convex = r.choice_or("bulge", {{"convex", true}, {"concave", false}}, true);
-  if (!r.has("bulge")) draft.assume(r.pointer_of("bulge"), "convex", "default");
+  if (!r.has("bulge")) draft.assume(r.pointer_of("bulge"), "convex", tr("default"));
   read_demands(draft, r, std::min(ends.left_mm, ends.right_mm));
   if (!std::isfinite(length_mm + ends.left_mm + ends.right_mm + radius)) return {};
   try {
@@ -188,16 +187,16 @@ void give_blanks(std::vector<Element>& list, const std::vector<Reader>& items,
     const auto k = beside(list, i);
     if (!k) {
       items[i].problem_at("kind",
-                          "a groove beside another element: its blank is turned to that "
-                          "one's diameter",
+                          tr("a groove beside another element: its blank is turned to "
+                             "that one's diameter"),
                           "conflict");
       continue;
     }
     if (part::stays(list[*k])) {
       items[i].problem_at("kind",
-                          "no groove or neck there: its blank would be turned to the "
-                          "diameter of " +
-                              list[*k].id + " beside it, which stays as the stock is",
+                          say("no groove or neck there: its blank would be turned to the "
+                              "diameter of {} beside it, which stays as the stock is",
+                              list[*k].id),
                           "conflict");
       continue;
     }
@@ -205,9 +204,10 @@ void give_blanks(std::vector<Element>& list, const std::vector<Reader>& items,
     const bool outside = where == Where::outside;
     if (outside ? floor >= blank : floor <= blank)
       items[i].problem_at("diameter_mm",
-                          std::string(outside ? "less" : "more") + " than the " +
-                              number_text(blank) + " mm of " + list[*k].id +
-                              " beside the groove",
+                          outside ? say("less than the {} mm of {} beside the groove",
+                                        number_text(blank), list[*k].id)
+                                  : say("more than the {} mm of {} beside the groove",
+                                        number_text(blank), list[*k].id),
                           "conflict");
     const auto s = part::groove(blank, floor);
     e.left_mm = e.right_mm = blank;
@@ -253,7 +253,7 @@ void plunge_necks(Draft& draft, const std::vector<Reader>& items) {
       auto& e = outer[first];
       if (!plain || is_groove(e)) continue;
       draft.assume(items[first].pointer_of("kind"), "groove",
-                   "a neck between larger diameters is plunged by a grooving blade");
+                   tr("a neck between larger diameters is plunged by a grooving blade"));
       make_at_catalogue_conditions(draft, items[first], e,
                                    part::groove(e.left_mm, e.left_mm).cut);
     }
@@ -266,18 +266,19 @@ void leave_to_the_tool(Draft& draft, Reader& r) {
   for (const char* key : {"fit", "limits_mm", "Ra_um", "Rz_um"})
     if (const auto value = r.find(key); value && !value->broken())
       draft.assume(r.pointer_of(key), value->json(),
-                   "left to the tool at its catalogue conditions: not predicted");
+                   tr("left to the tool at its catalogue conditions: not predicted"));
 }
 
 void read_cut(Draft& draft, Reader& r, part::OuterElement& e, CutKind kind) {
   if (kind == CutKind::hole)
-    r.problem_at("kind", "a kind that an outer element can have: not \"hole\"", "kind");
+    r.problem_at("kind", tr("a kind that an outer element can have: not \"hole\""),
+                 "kind");
   read(draft, r, e, kind, Where::outside);
 }
 
 void read_cut(Draft& draft, Reader& r, part::InnerElement& e, CutKind kind) {
   if (kind == CutKind::arc)
-    r.problem_at("kind", "a kind that a bore can have: not \"arc\"", "kind");
+    r.problem_at("kind", tr("a kind that a bore can have: not \"arc\""), "kind");
   read(draft, r, e, kind, Where::inside);
 }
 

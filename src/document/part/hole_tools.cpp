@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/say.hpp"
 #include "turnwright/base/units.hpp"
 #include "turnwright/tolerance/iso286.hpp"
 
@@ -69,8 +70,7 @@ bool keeps_size(const FixedTool& drill, double D, const part::Limits& limits) {
 }
 
 std::string promise(const FixedTool& drill) {
-  return "IT" + std::to_string(drill.hole->grade) + " and Ra " +
-         number_text(drill.hole->Ra_um) + " um";
+  return say("IT{} and Ra {} um", drill.hole->grade, number_text(drill.hole->Ra_um));
 }
 
 std::vector<const FixedTool*> known_tools(const Draft& draft, FixedUse use) {
@@ -90,8 +90,7 @@ std::optional<part::Limits> given_limits(Reader& hole, double D) {
   try {
     return tolerance::fit_limits_mm(D, *fit);
   } catch (const std::domain_error& error) {
-    hole.problem_at("fit",
-                    std::string("an ISO 286 tolerance class (") + error.what() + ")",
+    hole.problem_at("fit", say("an ISO 286 tolerance class ({})", error.what()),
                     "choice");
     return std::nullopt;
   }
@@ -102,8 +101,8 @@ std::optional<MadeHole> drilled_hole(const Draft& draft, const HoleDemand& w) {
     if (has_size(*t, w.D_mm) && w.takes_drill(w.D_mm) && keeps(*t, w) &&
         w.drilled_to_mm <= t->reach * w.D_mm)
       return MadeHole{part::hole(w.D_mm),
-                      "drilled to its size by " + t->id + ", to " + promise(*t),
-                      "drilled"};
+                      say("drilled to its size by {}, to {}", t->id, promise(*t)),
+                      to_translate("drilled")};
   return std::nullopt;
 }
 
@@ -116,9 +115,9 @@ std::optional<MadeHole> reamed_hole(const Draft& draft, const HoleDemand& w) {
                  most = w.D_mm - t->allowance_mm.lower;
     if (const auto drill = drill_between(draft, w, least, most, most, t->lead))
       return MadeHole{part::reamed(w.D_mm, *drill, t->lead),
-                      "drilled to " + number_text(*drill) + " mm and reamed by " + t->id +
-                          ", to " + promise(*t),
-                      "reamed"};
+                      say("drilled to {} mm and reamed by {}, to {}", number_text(*drill),
+                          t->id, promise(*t)),
+                      to_translate("reamed")};
   }
   return std::nullopt;
 }
@@ -132,9 +131,10 @@ std::optional<MadeHole> tapped_hole(const Draft& draft, const HoleDemand& w) {
       continue;
     if (const auto drill = drill_between(draft, w, D1.least_mm, D1.most_mm,
                                          w.D_mm - w.pitch_mm, lead + w.pitch_mm))
-      return MadeHole{part::tapped(w.D_mm, w.pitch_mm, *drill, lead),
-                      "drilled to " + number_text(*drill) + " mm and tapped by " + t->id,
-                      "tapped"};
+      return MadeHole{
+          part::tapped(w.D_mm, w.pitch_mm, *drill, lead),
+          say("drilled to {} mm and tapped by {}", number_text(*drill), t->id),
+          to_translate("tapped")};
   }
   return std::nullopt;
 }
@@ -170,9 +170,9 @@ std::optional<MadeHole> counterbored_hole(const Draft& draft, std::size_t i,
   for (const auto* t : known_tools(draft, FixedUse::counterboring))
     if (has_size(*t, w.D_mm) && keeps(*t, w) && w.drilled_to_mm <= t->reach * w.D_mm)
       return MadeHole{part::counterbored(w.D_mm, *w.drill_mm),
-                      "opened from the drill's " + number_text(*w.drill_mm) + " mm by " +
-                          t->id + ", to " + promise(*t),
-                      "counterbored"};
+                      say("opened from the drill's {} mm by {}, to {}",
+                          number_text(*w.drill_mm), t->id, promise(*t)),
+                      to_translate("counterbored")};
   return std::nullopt;
 }
 
@@ -186,21 +186,22 @@ std::string why_not(const Draft& draft, const HoleDemand& w) {
   };
   for (const auto* t : known_tools(draft, FixedUse::drilling))
     if (usable(*t))
-      add(*t, w.takes_drill(w.D_mm) ? "reaches " + number_text(t->reach * w.D_mm) + " mm"
-                                    : "is wider than the drill of what lies behind");
+      add(*t, w.takes_drill(w.D_mm) ? say("reaches {} mm", number_text(t->reach * w.D_mm))
+                                    : tr("is wider than the drill of what lies behind"));
   for (const auto* t : known_tools(draft, FixedUse::reaming)) {
     if (!usable(*t)) continue;
     if (w.length_mm + t->lead > t->reach * w.D_mm)
-      add(*t, "reaches " + number_text(t->reach * w.D_mm) + " mm with its lead");
+      add(*t, say("reaches {} mm with its lead", number_text(t->reach * w.D_mm)));
     else
-      add(*t, "asks for a drill of " + number_text(w.D_mm - t->allowance_mm.upper) +
-                  " to " + number_text(w.D_mm - t->allowance_mm.lower) +
-                  " mm that reaches, and makes what lies behind");
+      add(*t,
+          say("asks for a drill of {} to {} mm that reaches, and makes what lies behind",
+              number_text(w.D_mm - t->allowance_mm.upper),
+              number_text(w.D_mm - t->allowance_mm.lower)));
   }
   for (const auto* t : known_tools(draft, FixedUse::counterboring))
     if (usable(*t))
-      add(*t, "opens a narrower hole behind, down to at most " +
-                  number_text(t->reach * w.D_mm) + " mm from the face");
+      add(*t, say("opens a narrower hole behind, down to at most {} mm from the face",
+                  number_text(t->reach * w.D_mm)));
   return all;
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "shaft_fields.hpp"
+#include "turnwright/base/language.hpp"
 #include "turnwright/base/units.hpp"
 
 namespace turnwright::document {
@@ -56,7 +57,7 @@ void read_slots(Reader& r, const part::Segment& s, deflection::Section& section)
     if (item.problems().list.size() > before) continue;
     for (const Slot& other : slots)
       if (meet(slot, other, s.outer_left_mm))
-        item.problem("a slot that does not meet another", "conflict");
+        item.problem(tr("a slot that does not meet another"), "conflict");
     slots.push_back(slot);
     section = deflection::without_slot(section, s.outer_left_mm, slot);
   }
@@ -86,7 +87,7 @@ ReadShaft read_milled_shaft(Reader r) {
     if (segment.has("slots")) {
       any = true;
       if (!cylinder)
-        segment.problem_at("slots", "slots in a cylinder", "conflict");
+        segment.problem_at("slots", tr("slots in a cylinder"), "conflict");
       else if (wall)
         read_slots(segment, s, stretch.section);
     } else {
@@ -96,7 +97,8 @@ ReadShaft read_milled_shaft(Reader r) {
   });
   if (!any) return out;
   if (cones)
-    r.problem_at("segments", "cylinders alone: slots are read on a shaft without cones",
+    r.problem_at("segments",
+                 tr("cylinders alone: slots are read on a shaft without cones"),
                  "conflict");
   out.milled = std::move(milled);
   return out;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/say.hpp"
 #include "cross_holes.hpp"
 #include "document/catalogue/entries.hpp"
 #include "document/json/fields.hpp"
@@ -39,12 +40,13 @@ deflection::Slot slot_of(const Milled& m, double diameter_mm) {
 double depth_of_flats(Reader& r, double D_mm, int count) {
   const double across = r.number("across_flats_mm", above_up_to(0, 1000, "mm"));
   if (r.has("depth_mm"))
-    r.problem_at("across_flats_mm", "depth_mm or across_flats_mm, not both", "conflict");
+    r.problem_at("across_flats_mm", tr("depth_mm or across_flats_mm, not both"),
+                 "conflict");
   else if (count % 2 != 0)
-    r.problem_at("across_flats_mm", "an even count: each flat has one opposite",
+    r.problem_at("across_flats_mm", tr("an even count: each flat has one opposite"),
                  "conflict");
   else if (across >= D_mm)
-    r.problem_at("across_flats_mm", "less than the diameter, " + mm_text(D_mm),
+    r.problem_at("across_flats_mm", say("less than the diameter, {}", mm_text(D_mm)),
                  "conflict");
   return (D_mm - across) / 2;
 }
@@ -56,37 +58,39 @@ void check_shape(const part::Drawing& d, Reader& r, Milled& m) {
   const double z1 = z0 + e.length_mm;
   if (m.z_mm < z0 - kSlack || m.z_mm > z1)
     r.problem_at("z_mm",
-                 "a place on " + e.id + ", from " + mm_text(z0) + " to " + mm_text(z1),
+                 say("a place on {}, from {} to {}", e.id, mm_text(z0), mm_text(z1)),
                  "conflict");
   else if (m.z_mm + m.length_mm > z1 + kSlack)
     r.problem_at("length_mm",
-                 "at most " + mm_text(z1 - m.z_mm) + ", to the end of " + e.id,
+                 say("at most {}, to the end of {}", mm_text(z1 - m.z_mm), e.id),
                  "conflict");
   if (!(m.depth_mm < R)) {
     if (m.depth_mm >= R)
-      r.problem_at("depth_mm", "less than the radius of " + e.id + ", " + mm_text(R),
+      r.problem_at("depth_mm", say("less than the radius of {}, {}", e.id, mm_text(R)),
                    "conflict");
     return;
   }
   const double hole = part::largest_hole_mm(d, m.z_mm, m.z_mm + m.length_mm) / 2;
   if (R - m.depth_mm <= hole + kSlack)
-    r.problem_at("depth_mm", "less than the wall over the hole, " + mm_text(R - hole),
+    r.problem_at("depth_mm",
+                 say("less than the wall over the hole, {}", mm_text(R - hole)),
                  "conflict");
   if (m.kind == MilledKind::flat) {
     m.width_mm = 2 * std::sqrt(R * R - (R - m.depth_mm) * (R - m.depth_mm));
     return;
   }
   if (m.width_mm >= 2 * R)
-    r.problem_at("width_mm", "less than the diameter of " + e.id + ", " + mm_text(2 * R),
+    r.problem_at("width_mm",
+                 say("less than the diameter of {}, {}", e.id, mm_text(2 * R)),
                  "conflict");
   else if (R - m.depth_mm >= std::sqrt(R * R - m.width_mm * m.width_mm / 4))
     r.problem_at("depth_mm",
-                 "a floor below the edges, more than " +
-                     mm_text(R - std::sqrt(R * R - m.width_mm * m.width_mm / 4)) +
-                     " at this width",
+                 say("a floor below the edges, more than {} at this width",
+                     mm_text(R - std::sqrt(R * R - m.width_mm * m.width_mm / 4))),
                  "conflict");
   if (m.kind == MilledKind::keyway && m.length_mm < m.width_mm)
-    r.problem_at("length_mm", "at least its width, " + mm_text(m.width_mm), "conflict");
+    r.problem_at("length_mm", say("at least its width, {}", mm_text(m.width_mm)),
+                 "conflict");
 }
 
 // What a place takes of the cross-section: of a hole through the part both halves, which in
@@ -130,11 +134,10 @@ void add_places(Draft& draft, Reader& r, std::vector<Milled> entry) {
         met.push_back(other.id);
     all.push_back(std::move(m));
   }
-  if (of_feature) r.problem_at("id", "an id no element or face has", "duplicate");
-  if (of_place) r.problem_at("id", "an id no other milled place has", "duplicate");
+  if (of_feature) r.problem_at("id", tr("an id no element or face has"), "duplicate");
+  if (of_place) r.problem_at("id", tr("an id no other milled place has"), "duplicate");
   if (!met.empty())
-    r.problem(fmt::format("a place that does not meet {}", fmt::join(met, ", ")),
-              "conflict");
+    r.problem(say("a place that does not meet {}", fmt::join(met, ", ")), "conflict");
 }
 
 // Speeds of the driven spindle, if the machine has one.
@@ -159,14 +162,14 @@ void read_given(const Draft& draft, Reader& r, Milled& m) {
   if (!whole || given.broken()) return;
   for (const auto* key : {"passes", "n_rpm", "fz_mm"})
     if (!given.has(key))
-      given.problem_at(key, "a value: predict chooses none", "missing");
+      given.problem_at(key, tr("a value: predict chooses none"), "missing");
   if (m.kind == MilledKind::flat && !given.has("lanes"))
-    given.problem_at("lanes", "a value: predict chooses none", "missing");
+    given.problem_at("lanes", tr("a value: predict chooses none"), "missing");
 }
 
 double margin(Draft& draft, Reader& r, const char* key, const Bounds& bounds,
-              double fallback, const char* why) {
-  if (!r.has(key)) draft.assume(r.pointer_of(key), fallback, why);
+              double fallback, std::string why) {
+  if (!r.has(key)) draft.assume(r.pointer_of(key), fallback, std::move(why));
   return r.number_or(key, bounds, fallback);
 }
 
@@ -200,17 +203,17 @@ void read_milled_place(Draft& draft, Reader& r, const part::OuterElement* on,
   if (r.has("tool"))
     m.cutters = {cutter_of(draft.catalogue, r.at("tool"))};
   else if (draft.purpose == Purpose::predict)
-    r.problem_at("tool", "the id of a milling cutter", "missing");
+    r.problem_at("tool", tr("the id of a milling cutter"), "missing");
   else {
     m.cutters = draft.cutters;
     draft.assume(r.pointer_of("tool"), "any",
-                 "chosen from the milling cutters there are");
+                 tr("chosen from the milling cutters there are"));
   }
   m.depth_margin = margin(draft, r, "stability_margin", within(0, 10), kDepthMargin,
-                          "each pass stays stable when it is deeper by this share");
+                          tr("each pass stays stable when it is deeper by this share"));
   m.speed_margin =
       margin(draft, r, "speed_margin", within(0.005, 0.2), kSpeedMargin,
-             "each pass stays stable at all speeds slower or faster by this share");
+             tr("each pass stays stable at all speeds slower or faster by this share"));
   read_given(draft, r, m);
 }
 
@@ -224,8 +227,8 @@ void read_place(Draft& draft, Reader r, std::size_t entry) {
                                    MilledKind::cross_hole}));
   const bool kind_known = r.problems().list.size() == before;
   const auto& outer = draft.drawing().outer;
-  const auto on = checked_reference(r.at("on", "the id of an outer cylinder"),
-                                    cylinders(draft.drawing()), "an outer cylinder");
+  const auto on = checked_reference(r.at("on", tr("the id of an outer cylinder")),
+                                    cylinders(draft.drawing()), tr("an outer cylinder"));
   const auto e = std::find_if(outer.begin(), outer.end(),
                               [&](const auto& x) { return !on.empty() && x.id == on; });
   const auto* element = e == outer.end() ? nullptr : &*e;
@@ -252,7 +255,7 @@ std::string that_mill(const Catalogue& catalogue) {
   std::string list;
   for (const auto& m : catalogue.machines)
     if (m.driven_tools) list += (list.empty() ? "" : ", ") + m.id;
-  return list.empty() ? "no machine of the catalogue has" : "as " + list + " has";
+  return list;
 }
 
 }  // namespace
@@ -261,15 +264,19 @@ void read_milling(Draft& draft) {
   const auto items = draft.root.optional_items("milling", 0, kPlaces);
   if (items.empty()) return;
   const auto& machine = draft.plan().machine;
-  if (!machine.id.empty() && !machine.driven_tools)
+  if (!machine.id.empty() && !machine.driven_tools) {
+    const auto others = that_mill(draft.catalogue);
     draft.root.problem_at(
         "milling",
-        "none: " + machine.id + " has no driven_tools, " + that_mill(draft.catalogue),
+        others.empty()
+            ? say("none: {} has no driven_tools, no machine of the catalogue has",
+                  machine.id)
+            : say("none: {} has no driven_tools, as {} has", machine.id, others),
         "conflict");
+  }
   for (std::size_t i = 0; i < items.size(); ++i) read_place(draft, items[i], i);
   if (draft.plan().milled.size() > kPlaces)
-    draft.root.problem_at(
-        "milling", "at most " + std::to_string(kPlaces) + " places in all", "range");
+    draft.root.problem_at("milling", say("at most {} places in all", kPlaces), "range");
 }
 
 }  // namespace turnwright::document

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "base/say.hpp"
 #include "document/json/fields.hpp"
 #include "document/json/reference.hpp"
 #include "part_sections.hpp"
@@ -60,11 +61,11 @@ std::vector<std::string> surfaces(const part::Drawing& drawing, OperationKind ki
   return out;
 }
 
-const char* wanted(OperationKind kind) {
-  if (kind == OperationKind::face) return "a face";
+std::string wanted(OperationKind kind) {
+  if (kind == OperationKind::face) return tr("a face");
   if (kind == OperationKind::fixed)
-    return "a groove, thread or arc, a bore of a bar, or an end";
-  return is_boring(kind) ? "an inner element" : "an outer element";
+    return tr("a groove, thread or arc, a bore of a bar, or an end");
+  return is_boring(kind) ? tr("an inner element") : tr("an outer element");
 }
 
 // A boring bar faces shoulders between bores, where a tolerance is on them.
@@ -73,14 +74,13 @@ void check_shoulder(const Draft& draft, const Reader& item,
   const auto& d = draft.loaded.plan.drawing;
   const bool inside = part::inner_shoulder(d, id).has_value();
   if (!op.on.empty() && inside != is_by_bar(d, op))
-    item.problem(
-        "shoulders between bores, which a boring bar faces, in an operation of their own",
-        "conflict");
+    item.problem(tr("shoulders between bores, which a boring bar faces, in an operation "
+                    "of their own"),
+                 "conflict");
   if (inside && !part::has_tolerance(d, id))
-    item.problem(
-        "a shoulder that a tolerance is on: others between bores are made with the wider "
-        "one",
-        "conflict");
+    item.problem(tr("a shoulder that a tolerance is on: others between bores are made "
+                    "with the wider one"),
+                 "conflict");
 }
 
 void read_on(Draft& draft, Reader& r, planning::OperationRequest& op) {
@@ -90,7 +90,7 @@ void read_on(Draft& draft, Reader& r, planning::OperationRequest& op) {
                            checked_reference(item, known, wanted(op.kind)));
     if (op.kind == OperationKind::face) check_shoulder(draft, item, op, id);
     if (!id.empty() && std::find(op.on.begin(), op.on.end(), id) != op.on.end())
-      item.problem("each element once", "duplicate");
+      item.problem(tr("each element once"), "duplicate");
     op.on.push_back(std::move(id));
   }
 }
@@ -98,23 +98,23 @@ void read_on(Draft& draft, Reader& r, planning::OperationRequest& op) {
 void read_tool_reference(Draft& draft, Reader& r, planning::OperationRequest& op) {
   if (!r.has("tool")) {
     if (draft.purpose == Purpose::predict && op.kind != OperationKind::fixed)
-      r.problem_at("tool", "the id of a tool", "missing");
+      r.problem_at("tool", tr("the id of a tool"), "missing");
     return;
   }
   std::vector<std::string> known;
   if (op.kind == OperationKind::fixed) {
     for (const auto& tool : draft.plan().fixed_tools) known.push_back(tool.id);
-    op.tool = checked_reference(r.at("tool"), known, "a tool for fixed operations");
+    op.tool = checked_reference(r.at("tool"), known, tr("a tool for fixed operations"));
     return;
   }
   for (const auto& tool : draft.plan().tools) known.push_back(tool.id);
-  op.tool = checked_reference(r.at("tool"), known, "a tool of this request");
+  op.tool = checked_reference(r.at("tool"), known, tr("a tool of this request"));
   const bool by_bar = is_by_bar(draft.drawing(), op);
   for (const auto& tool : draft.plan().tools)
     if (tool.id == *op.tool && tool.bar.has_value() != by_bar)
       r.problem_at("tool",
-                   by_bar ? "a tool with a boring bar"
-                          : "a tool for the outside, not a boring bar",
+                   by_bar ? tr("a tool with a boring bar")
+                          : tr("a tool for the outside, not a boring bar"),
                    "conflict");
 }
 
@@ -133,7 +133,7 @@ void read_conditions(Draft& draft, Reader& r, OperationKind kind,
   if (!whole || given.broken()) return;
   for (const auto* key : {"passes", "ap_mm", "f_mm_rev", "vc_m_min"})
     if (!given.has(key))
-      given.problem_at(key, "a value: predict chooses none", "missing");
+      given.problem_at(key, tr("a value: predict chooses none"), "missing");
 }
 
 void read_direction(Draft& draft, Reader& r, planning::OperationRequest& op) {
@@ -142,7 +142,7 @@ void read_direction(Draft& draft, Reader& r, planning::OperationRequest& op) {
     op.direction =
         r.choice<planning::Direction>("direction", named({to_chuck, from_chuck}));
   else
-    draft.assume(r.pointer_of("direction"), name(op.direction), "usual direction");
+    draft.assume(r.pointer_of("direction"), name(op.direction), tr("usual direction"));
 }
 
 planning::OperationRequest read_operation(Draft& draft, Reader r) {
@@ -156,7 +156,7 @@ planning::OperationRequest read_operation(Draft& draft, Reader r) {
   op.kind = r.choice("kind", kinds());
   if (r.problems().list.size() > before) return op;  // the other keys depend on it
   if (is_boring(op.kind) && draft.drawing().inner.empty()) {
-    r.problem_at("kind", "an operation on the outside: the part has no bores",
+    r.problem_at("kind", tr("an operation on the outside: the part has no bores"),
                  "conflict");
     return op;
   }
@@ -210,12 +210,11 @@ void check_pair(Reader r, const Draft& draft, const planning::OperationRequest& 
   }
   if (earlier.kind == op.kind)
     r.problem_at("on",
-                 "elements that " + earlier.id + ", also \"" + name(op.kind) +
-                     "\", does not cut: not " + *shared,
+                 say("elements that {}, also \"{}\", does not cut: not {}", earlier.id,
+                     name(op.kind), *shared),
                  "duplicate");
   else if (earlier.setup != op.setup)
-    r.problem_at("setup",
-                 "the setup of " + earlier.id + ", which cuts " + *shared + " too",
+    r.problem_at("setup", say("the setup of {}, which cuts {} too", earlier.id, *shared),
                  "conflict");
 }
 
@@ -228,6 +227,16 @@ bool makes_hole(catalogue::FixedUse use, const part::InnerElement& hole) {
          (use == counterboring && part::is_counterbore(hole));
 }
 
+// The tools that make a hole.
+std::string makers(const part::InnerElement& hole) {
+  std::string all = part::is_tapped(hole)        ? tr("a drill or a tap")
+                    : part::is_reamed(hole)      ? tr("a drill or a reamer")
+                    : part::is_counterbore(hole) ? tr("a drill or a flat drill")
+                                                 : tr("a drill");
+  if (part::opening_chamfer(hole)) all += tr(", or a countersink");
+  return all;
+}
+
 // A hole is not made by other tools than those that follow from its drawing.
 void check_hole_tool(const Draft& draft, Reader r, const planning::OperationRequest& op,
                      const std::string& id) {
@@ -236,15 +245,7 @@ void check_hole_tool(const Draft& draft, Reader r, const planning::OperationRequ
   const auto use = use_of(draft, op);
   if (hole == inner.end() || !part::is_hole(*hole) || !use || makes_hole(*use, *hole))
     return;
-  r.problem_at("tool",
-               std::string("a drill") +
-                   (part::is_tapped(*hole)        ? " or a tap"
-                    : part::is_reamed(*hole)      ? " or a reamer"
-                    : part::is_counterbore(*hole) ? " or a flat drill"
-                                                  : "") +
-                   (part::opening_chamfer(*hole) ? ", or a countersink" : "") +
-                   ": they make " + id,
-               "conflict");
+  r.problem_at("tool", say("{}: they make {}", makers(*hole), id), "conflict");
 }
 
 // The held end may be parted off, if the stock is; the free end may get a centre hole.
@@ -259,15 +260,15 @@ void check_fixed(Draft& draft, Reader r, const planning::OperationRequest& op) {
     check_hole_tool(draft, r, op, id);
     if (id == (left ? "left" : "right") && !(op.setup == 0 && drawing.stock.parted_mm))
       r.problem_at("on",
-                   "the free end; the held one is parted off in the first setup if "
-                   "/stock/part_off_allowance_mm says what that leaves",
+                   tr("the free end; the held one is parted off in the first setup if "
+                      "/stock/part_off_allowance_mm says what that leaves"),
                    "conflict");
     const auto has_cut = [&](const auto& e) { return e.id == id && e.cut; };
     if (op.conditions.passes.value_or(1) > 1 &&
         std::none_of(drawing.outer.begin(), drawing.outer.end(), has_cut) &&
         std::none_of(drawing.inner.begin(), drawing.inner.end(), has_cut))
       r.problem_at("conditions",
-                   "one pass: " + id + " is drilled, centred or parted off in one",
+                   say("one pass: {} is drilled, centred or parted off in one", id),
                    "conflict");
   }
 }
@@ -295,7 +296,7 @@ void turn_grooves(Draft& draft, const std::vector<Element>& list) {
       o.id += ":" + id;
       o.on = {id};
       draft.assume("/operations", {{"id", o.id}, {"kind", name(o.kind)}, {"on", o.on}},
-                   "a groove's blank is turned like " + list[*k].id + " beside it");
+                   say("a groove's blank is turned like {} beside it", list[*k].id));
       operations.push_back(std::move(o));
     }
   }
@@ -307,14 +308,14 @@ void read_operations(Draft& draft) {
   const auto value = draft.root.find("operations");
   const bool automatic = !value || (value->is_text() && value->json() == "auto");
   if (automatic && draft.purpose == Purpose::predict) {
-    draft.root.problem_at("operations", "a list of operations: predict chooses none",
+    draft.root.problem_at("operations", tr("a list of operations: predict chooses none"),
                           "missing");
     return;
   }
-  if (!value) draft.assume("/operations", "auto", "no operations given");
+  if (!value) draft.assume("/operations", "auto", tr("no operations given"));
   if (automatic) return;
   if (!value->is_array()) {
-    value->problem("\"auto\" or a list of operations", "type");
+    value->problem(tr("\"auto\" or a list of operations"), "type");
     return;
   }
   auto& operations = draft.plan().operations.emplace();
@@ -322,7 +323,7 @@ void read_operations(Draft& draft) {
     auto op = read_operation(draft, item);
     for (const auto& earlier : operations) {
       if (!op.id.empty() && earlier.id == op.id)
-        item.problem_at("id", "an id no other operation has", "duplicate");
+        item.problem_at("id", tr("an id no other operation has"), "duplicate");
       check_pair(item, draft, earlier, op);
     }
     check_fixed(draft, item, op);

@@ -3,6 +3,7 @@
 #include <string>
 #include <utility>
 
+#include "base/say.hpp"
 #include "choices.hpp"
 #include "document/json/fields.hpp"
 #include "part_sections.hpp"
@@ -21,7 +22,7 @@ void read_name(Draft& draft) {
     part_name = draft.root.text("name");
   } else {
     part_name = "part";
-    draft.assume("/name", part_name, "no name given");
+    draft.assume("/name", part_name, tr("no name given"));
   }
 }
 
@@ -47,11 +48,11 @@ void read_rates(Draft& draft) {
   if (!rates || !rates->has("machine_per_min")) {
     plan.machine_per_min = plan.machine.cost_per_min;
     draft.assume("/rates/machine_per_min", plan.machine_per_min,
-                 "the machine's own rate");
+                 tr("the machine's own rate"));
   }
   if (plan.objective == Objective::profit && !plan.price && !(rates && rates->broken()))
-    draft.root.problems().add({"/rates/price", "nothing",
-                               "the price of a part: the objective is profit",
+    draft.root.problems().add({"/rates/price", tr("nothing"),
+                               tr("the price of a part: the objective is profit"),
                                "missing"});
 }
 
@@ -59,7 +60,7 @@ template <class T>
 T or_assumed(Draft& draft, const char* key, const std::optional<T>& value, T fallback,
              const nlohmann::json& echoed) {
   if (value) return *value;
-  draft.assume(std::string("/") + key, echoed, "default");
+  draft.assume(std::string("/") + key, echoed, tr("default"));
   return fallback;
 }
 
@@ -77,7 +78,7 @@ void read_economics(Draft& draft) {
     plan.batch = static_cast<double>(r.integer("batch", 1, 1'000'000));
   else if (!no_batch)
     draft.assume("/batch", nullptr,
-                 "none: time and cost per part do not include preparing the machine");
+                 tr("none: time and cost per part do not include preparing the machine"));
   read_rates(draft);
   plan.machine_share_um =
       or_assumed(draft, "machine_share_um",
@@ -93,7 +94,7 @@ void read_economics(Draft& draft) {
     plan.robust = draft.root.boolean("robust");
   else
     draft.assume("/robust", plan.robust,
-                 "every tolerance is kept with the probability conformance");
+                 tr("every tolerance is kept with the probability conformance"));
   const auto probability = at_least_below(0.5, 1);
   plan.conformance =
       or_assumed(draft, "conformance", r.optional_number("conformance", probability),
@@ -112,13 +113,13 @@ void read_damping(Draft& draft) {
   const auto& machines = plan.machine.damping_ratio;
   plan.damping_ratio = machines.value_or(plan.damping_ratio);
   plan.machine_damping_ratio = machines.value_or(plan.machine_damping_ratio);
-  std::string why = machines ? "the machine's own"
-                             : "parts that bend, on the safe side; 0.03 for chuck, "
-                               "centres, toolpost and bars";
+  std::string why = machines ? tr("the machine's own")
+                             : tr("parts that bend, on the safe side; 0.03 for chuck, "
+                                  "centres, toolpost and bars");
   if (!plan.machine.tool_zz_mm_N)
     why +=
-        "; the toolpost is taken as rigid along the feed (no tool_zz_mm_N), which for "
-        "deep cuts is not the safe side";
+        tr("; the toolpost is taken as rigid along the feed (no tool_zz_mm_N), which for "
+           "deep cuts is not the safe side");
   draft.assume("/damping_ratio", plan.damping_ratio, std::move(why));
 }
 
@@ -180,13 +181,14 @@ void read_budget(Draft& draft) {
     const Bounds land = within(0, 2, "mm");
     shop.edge_wear_mm = given->number("edge_wear_mm", land);
     if (contains(land, shop.edge_wear_mm) && shop.edge_wear_mm > shop.wear_land_mm)
-      given->problem_at("edge_wear_mm",
-                        "at most wear_land_mm, " + number_text(shop.wear_land_mm) + " mm",
-                        number_text(shop.edge_wear_mm));
+      given->problem_at(
+          "edge_wear_mm",
+          say("at most wear_land_mm, {} mm", number_text(shop.wear_land_mm)),
+          number_text(shop.edge_wear_mm));
     if (shop.edge_wear_mm > 0 && !(draft.plan().material.land_Ra_um_mm > 0))
       draft.assume("/material/worn_roughness", nullptr,
-                   "the material does not tell it: surfaces are as smooth as new edges "
-                   "leave them");
+                   tr("the material does not tell it: surfaces are as smooth as new "
+                      "edges leave them"));
   }
   read("wear_noticed_times", shop.wear_noticed_times, within(1, 10));
   if (has("rechucking_um")) shop.rechucking = read_rechucking(given->at("rechucking_um"));
@@ -196,9 +198,9 @@ void read_budget(Draft& draft) {
   if (given) given->finish();
   if (!all)
     draft.assume("/budget", json_of(shop),
-                 "where the part does not say: " + machine.id +
-                     " in ordinary production, no measurement counted, offsets set by "
-                     "the first part");
+                 say("where the part does not say: {} in ordinary production, no "
+                     "measurement counted, offsets set by the first part",
+                     machine.id));
 }
 
 LoadedPart load(const nlohmann::json& request, const Catalogue& catalogue,
@@ -255,7 +257,8 @@ LoadedPart load_part_plan(const nlohmann::json& request, const Catalogue& catalo
                           const std::string& document, Purpose purpose) {
   Problems problems{.document = document};
   if (purpose == Purpose::predict && request.is_object() && request.contains("choose"))
-    problems.add({"/choose", "a choice", "nothing: only plan chooses", "unsupported"});
+    problems.add(
+        {"/choose", tr("a choice"), tr("nothing: only plan chooses"), "unsupported"});
   const auto all = variants(request, problems);
   problems.throw_if_any();
   return load_variant(all.front(), catalogue, document, purpose);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/say.hpp"
 #include "document/json/fields.hpp"
 #include "part_sections.hpp"
 
@@ -49,17 +50,17 @@ void check_setup(const Draft& draft, const Reader& at, std::size_t i,
   const double d_mm = part::held_mm(drawing, i, setup.hold);
   const bool readable = length_mm > 0 && d_mm > 0 && std::isfinite(d_mm);
   if (readable && setup.grip_mm >= length_mm)
-    at.problem("a grip of " + mm_text(*setup.grip_mm),
-               "less than the " + std::string(i == 0 ? "stock" : "part") + "'s " +
-                   mm_text(length_mm),
+    at.problem(say("a grip of {}", mm_text(*setup.grip_mm)),
+               i == 0 ? say("less than the stock's {}", mm_text(length_mm))
+                      : say("less than the part's {}", mm_text(length_mm)),
                "conflict");
   const auto& machine = draft.loaded.plan.machine;
   if (machine.id.empty()) return;  // unknown, reported already
   const auto& range = machine.chuck.diameter_mm;
   if (has_jaws(setup) && readable && (d_mm < range.lower || d_mm > range.upper))
-    at.problem("a diameter of " + mm_text(d_mm) + " in the jaws",
-               "what the chuck of " + machine.id + " holds, " + mm_text(range.lower) +
-                   " to " + mm_text(range.upper),
+    at.problem(say("a diameter of {} in the jaws", mm_text(d_mm)),
+               say("what the chuck of {} holds, {} to {}", machine.id,
+                   mm_text(range.lower), mm_text(range.upper)),
                "conflict");
 }
 
@@ -67,7 +68,7 @@ void read_clampings(Draft& draft, Reader& r, planning::SetupRequest& setup) {
   if (!r.has("clampings")) {
     setup.clampings = all_clampings(draft);
     draft.assume(r.pointer_of("clampings"), words(setup.clampings),
-                 "all the machine has");
+                 tr("all the machine has"));
     return;
   }
   setup.clampings = read_set(r, "clampings", clampings());
@@ -75,25 +76,29 @@ void read_clampings(Draft& draft, Reader& r, planning::SetupRequest& setup) {
     if (!draft.loaded.plan.machine.clampings.empty() &&
         !draft.loaded.plan.machine.has(name(clamping)))
       r.problem_at("clampings",
-                   "what " + draft.loaded.plan.machine.id + " has: " +
-                       nlohmann::json(draft.loaded.plan.machine.clampings).dump(),
+                   say("what {} has: {}", draft.loaded.plan.machine.id,
+                       nlohmann::json(draft.loaded.plan.machine.clampings).dump()),
                    "conflict");
   if (part::flats(draft.loaded.plan.drawing.stock.kind) > 0 &&
       std::ranges::any_of(setup.clampings, has_rest))
-    r.problem_at("clampings", "no rest, which runs on no bar with corners", "conflict");
+    r.problem_at("clampings", tr("no rest, which runs on no bar with corners"),
+                 "conflict");
 }
 
 void read_grip_forces(const Draft& draft, Reader& r, planning::SetupRequest& setup) {
-  const auto force = [&](const char* key, double most, const char* of) {
+  const auto force = [&](const char* key, double most, bool roughing) {
     const auto given = r.optional_number(key, above_up_to(0, 1e7, "N"));
     if (given && most > 0 && *given > most)
-      r.problem_at(key, "at most the " + number_text(most) + " N of " + of, "conflict");
+      r.problem_at(key,
+                   roughing ? say("at most the {} N of the roughing", number_text(most))
+                            : say("at most the {} N of the chuck", number_text(most)),
+                   "conflict");
     return given;
   };
   const double chuck = draft.loaded.plan.machine.chuck.grip_force_N;
-  setup.grip_force_N = force("grip_force_N", chuck, "the chuck");
+  setup.grip_force_N = force("grip_force_N", chuck, false);
   setup.finishing_grip_force_N =
-      force("finishing_grip_force_N", setup.grip_force_N.value_or(chuck), "the roughing");
+      force("finishing_grip_force_N", setup.grip_force_N.value_or(chuck), true);
 }
 
 // The position of the steady rest, which is required by its clamping and allowed by no
@@ -104,7 +109,7 @@ void read_steady(Reader& r, planning::SetupRequest& setup) {
   if (wanted)
     setup.steady_z_mm = r.number("steady_mm", above_up_to(0, 20000, "mm"));
   else if (r.has("steady_mm"))
-    r.problem_at("steady_mm", "nothing: no clamping here is \"chuck-steady\"",
+    r.problem_at("steady_mm", tr("nothing: no clamping here is \"chuck-steady\""),
                  "conflict");
 }
 
@@ -120,7 +125,7 @@ void check_steady(const Draft& draft, const Reader& r, std::size_t i) {
   const bool beside = (left ? z : length_mm - z) > jaws_mm;
   if (!beside || z >= length_mm)
     r.problem_at("steady_mm",
-                 "a place on the part outside the jaws, z from the part's left end",
+                 tr("a place on the part outside the jaws, z from the part's left end"),
                  "conflict");
 }
 
@@ -132,7 +137,7 @@ void read_jaws(Draft& draft, Reader& r, std::size_t i, planning::SetupRequest& s
     setup.jaws = *jaws;
   else if (i > 0 && has_jaws(setup))
     draft.assume(r.pointer_of("jaws"), name(setup.jaws),
-                 "bored in place to the diameter they hold");
+                 tr("bored in place to the diameter they hold"));
 }
 
 planning::SetupRequest read_setup(Draft& draft, Reader r, std::size_t i) {
@@ -147,7 +152,7 @@ planning::SetupRequest read_setup(Draft& draft, Reader r, std::size_t i) {
   if (draft.purpose == Purpose::predict && setup.clampings.size() > 1) {
     setup.clampings = {setup.clampings.front()};
     draft.assume(r.pointer_of("clampings"), words(setup.clampings),
-                 "the first: predict compares none");
+                 tr("the first: predict compares none"));
   }
   r.finish();
   check_setup(draft, r, i, setup);
@@ -167,7 +172,7 @@ void assume_setups(Draft& draft) {
     if (i > 0) echoed.back()["jaws"] = name(setups.back().jaws);
   }
   draft.assume("/setups", std::move(echoed),
-               "hold left, then right, with all the clampings the machine has");
+               tr("hold left, then right, with all the clampings the machine has"));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/say.hpp"
 #include "part_sections.hpp"
 
 namespace turnwright::document {
@@ -74,12 +75,12 @@ void read_outline(Draft& draft, Reader& r, part::Stock& stock) {
     stock.outline_limits = read_limits(r);
   else
     draft.assume("/stock/limits_mm", {0, 0},
-                 "its diameters are as its outline says; castings and forgings differ: "
-                 "ISO 8062-3, EN 10243-1");
+                 tr("its diameters are as its outline says; castings and forgings "
+                    "differ: ISO 8062-3, EN 10243-1"));
   stock.outer_mm = largest_mm + stock.outline_limits.upper_mm;
-  draft.assume("/stock/outline", "no skin",
-               "a hard skin, draft beside its walls and a mismatch of its halves wear no "
-               "edge and turn no pass into an interrupted one");
+  draft.assume("/stock/outline", tr("no skin"),
+               tr("a hard skin, draft beside its walls and a mismatch of its halves wear "
+                  "no edge and turn no pass into an interrupted one"));
 }
 
 bool lengths_were_read(const part::Drawing& d) {
@@ -100,8 +101,8 @@ void take_from_outline(Draft& draft) {
     const auto& limits = d.stock.outline_limits;
     e.left_mm = e.right_mm = at.most_mm - limits.upper_mm;
     if (std::abs(e.left_mm - (at.least_mm - limits.lower_mm)) > kSame_mm)
-      items[i].problem("a stretch on which the outline of the stock is no cylinder",
-                       "an element within one cylinder of the outline", "conflict");
+      items[i].problem(tr("a stretch on which the outline of the stock is no cylinder"),
+                       tr("an element within one cylinder of the outline"), "conflict");
   }
 }
 
@@ -114,9 +115,11 @@ void check_outline(const Draft& draft, Reader& r, const part::Drawing& d) {
                  drawn_mm = std::max(e.left_mm, e.right_mm);
     if (least_mm <= drawn_mm)
       r.problem_at("outline",
-                   "more than the " + number_text(drawn_mm) + " mm " +
-                       (e.cut ? "from which " + e.id + " is cut" : "of " + e.id) +
-                       " all over it; it may be " + number_text(least_mm) + " mm",
+                   e.cut ? say("more than the {} mm from which {} is cut all over it; it "
+                               "may be {} mm",
+                               number_text(drawn_mm), e.id, number_text(least_mm))
+                         : say("more than the {} mm of {} all over it; it may be {} mm",
+                               number_text(drawn_mm), e.id, number_text(least_mm)),
                    "conflict");
   }
   double thinnest_mm = INFINITY;
@@ -125,15 +128,15 @@ void check_outline(const Draft& draft, Reader& r, const part::Drawing& d) {
   thinnest_mm += d.stock.outline_limits.lower_mm;
   if (thinnest_mm <= d.stock.inner_mm)
     r.problem_at("outline",
-                 "diameters above its hole, " + number_text(d.stock.inner_mm) +
-                     " mm; the least may be " + number_text(thinnest_mm) + " mm",
+                 say("diameters above its hole, {} mm; the least may be {} mm",
+                     number_text(d.stock.inner_mm), number_text(thinnest_mm)),
                  "conflict");
   const auto& machine = draft.loaded.plan.machine;
   if (machine.swing_mm > 0 && d.stock.outer_mm > machine.swing_mm)
-    r.problem_at("outline",
-                 "at most the swing of " + machine.id + ", " +
-                     number_text(machine.swing_mm) + " mm",
-                 "conflict");
+    r.problem_at(
+        "outline",
+        say("at most the swing of {}, {} mm", machine.id, number_text(machine.swing_mm)),
+        "conflict");
 }
 
 void check_diameters(Reader& r, const Draft& draft, const part::Drawing& drawing) {
@@ -146,21 +149,23 @@ void check_diameters(Reader& r, const Draft& draft, const part::Drawing& drawing
   }
   if (!has_outline(stock.kind) && part::across_mm(stock) <= largest_mm)
     r.problem_at(outer_key(stock.kind),
-                 "more than the largest element, " + number_text(largest_mm) + " mm",
+                 say("more than the largest element, {} mm", number_text(largest_mm)),
                  "conflict");
   if (stock.inner_mm >= stock.outer_mm)
-    r.problem_at("inner_mm", "less than outer_mm", "order");
+    r.problem_at("inner_mm", tr("less than outer_mm"), "order");
   else if (stock.inner_mm >= smallest_mm)
     r.problem_at("inner_mm",
-                 "less than the smallest element, " + number_text(smallest_mm) + " mm",
+                 say("less than the smallest element, {} mm", number_text(smallest_mm)),
                  "conflict");
   const auto& machine = draft.loaded.plan.machine;
   if (!has_outline(stock.kind) && machine.swing_mm > 0 &&
       stock.outer_mm > machine.swing_mm)
     r.problem_at(outer_key(stock.kind),
-                 std::string(part::flats(stock.kind) > 0 ? "corners within" : "at most") +
-                     " the swing of " + machine.id + ", " +
-                     number_text(machine.swing_mm) + " mm",
+                 part::flats(stock.kind) > 0
+                     ? say("corners within the swing of {}, {} mm", machine.id,
+                           number_text(machine.swing_mm))
+                     : say("at most the swing of {}, {} mm", machine.id,
+                           number_text(machine.swing_mm)),
                  "conflict");
 }
 
@@ -169,8 +174,8 @@ void check_length(Reader& r, const Draft& draft, part::Drawing& drawing) {
   const double least_mm = part::length_mm(drawing) + drawing.stock.left_allowance_mm;
   if (drawing.stock.length_mm < least_mm - kSum_mm)
     r.problem_at(length_key(drawing.stock.kind),
-                 "at least the finished length and left_allowance_mm, " +
-                     number_text(least_mm) + " mm",
+                 say("at least the finished length and left_allowance_mm, {} mm",
+                     number_text(least_mm)),
                  "conflict");
   else
     drawing.stock.length_mm = std::max(drawing.stock.length_mm, least_mm);
@@ -178,8 +183,8 @@ void check_length(Reader& r, const Draft& draft, part::Drawing& drawing) {
   if (machine.between_centres_mm > 0 &&
       drawing.stock.length_mm > machine.between_centres_mm)
     r.problem_at(length_key(drawing.stock.kind),
-                 "at most the distance between centres of " + machine.id + ", " +
-                     number_text(machine.between_centres_mm) + " mm",
+                 say("at most the distance between centres of {}, {} mm", machine.id,
+                     number_text(machine.between_centres_mm)),
                  "conflict");
 }
 
@@ -187,11 +192,11 @@ void check_length(Reader& r, const Draft& draft, part::Drawing& drawing) {
 void assume_corners(Draft& draft, const part::Stock& stock) {
   if (part::flats(stock.kind) == 0) return;
   draft.assume("/stock/kind", draft.loaded.json["stock"]["kind"],
-               "passes through the corners count as if they were round, their shocks do "
-               "not wear the edge");
+               tr("passes through the corners count as if they were round, their shocks "
+                  "do not wear the edge"));
   if (stock.kind == part::StockKind::square)
-    draft.assume("/machine/chuck", "four jaws or a collet",
-                 "three jaws do not centre a square bar");
+    draft.assume("/machine/chuck", tr("four jaws or a collet"),
+                 tr("three jaws do not centre a square bar"));
 }
 
 }  // namespace
@@ -228,7 +233,7 @@ void read_stock(Draft& draft) {
     stock.left_allowance_mm =
         std::max(0.0, (stock.length_mm - part::length_mm(drawing)) / 2);
     draft.assume("/stock/left_allowance_mm", stock.left_allowance_mm,
-                 "half of what the stock is longer than the part");
+                 tr("half of what the stock is longer than the part"));
   }
   if (!blank)
     stock.parted_mm = r.optional_number("part_off_allowance_mm", within(0, 100, "mm"));

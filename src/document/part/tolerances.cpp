@@ -2,6 +2,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "base/say.hpp"
 #include "document/json/fields.hpp"
 #include "document/json/reference.hpp"
 #include "part_sections.hpp"
@@ -30,7 +31,7 @@ struct Found {
 Found find_feature(const Reader& value, const part::Drawing& drawing,
                    const std::vector<NamedFeature>& features) {
   const auto all = names(features, [](Feature) { return true; });
-  Found found{checked_reference(value, all, "an element or face of the part"), {}};
+  Found found{checked_reference(value, all, tr("an element or face of the part")), {}};
   for (const auto& named : features)
     if (named.id == found.id) found.feature = named.feature;
   found.id = checked_wall(value, drawing, std::move(found.id));
@@ -53,20 +54,20 @@ bool fits(Of of, Feature feature) {
   return false;
 }
 
-const char* wanted_feature(Of of) {
+std::string wanted_feature(Of of) {
   switch (of) {
     case Of::cylinder:
-      return "a cylinder";
+      return tr("a cylinder");
     case Of::element:
-      return "a cylinder or cone";
+      return tr("a cylinder or cone");
     case Of::face:
-      return "a face";
+      return tr("a face");
     case Of::element_or_face:
-      return "an element or a face";
+      return tr("an element or a face");
     case Of::two_faces:
       break;
   }
-  return "two faces";
+  return tr("two faces");
 }
 
 // What `datum` must be for a toleranced feature.
@@ -97,7 +98,7 @@ class ToleranceReader {
     const auto& list = draft_.drawing().tolerances;
     if (!t.id.empty() && std::any_of(list.begin(), list.end(),
                                      [&](const auto& other) { return other.id == t.id; }))
-      r.problem_at("id", "an id no other tolerance has", "duplicate");
+      r.problem_at("id", tr("an id no other tolerance has"), "duplicate");
     const auto before = r.problems().list.size();
     t.kind = r.choice<ToleranceKind>("kind", kinds());
     if (r.problems().list.size() > before) return t;  // the other keys depend on it
@@ -136,9 +137,9 @@ class ToleranceReader {
     for (std::size_t i = 0; i < 2; ++i)
       t.between[i] =
           checked_wall(ends[i], draft_.drawing(),
-                       checked_reference(ends[i], faces, "a face of the part"));
+                       checked_reference(ends[i], faces, tr("a face of the part")));
     if (t.between[0] == t.between[1] && !t.between[0].empty())
-      r.problem_at("between", "two different faces", "conflict");
+      r.problem_at("between", tr("two different faces"), "conflict");
   }
 
   void read_features(Reader& r, part::Tolerance& t) const {
@@ -147,12 +148,11 @@ class ToleranceReader {
     t.of = of.id;
     if (of.feature == Feature::fixed)
       r.problem_at("of",
-                   "a surface that is turned, faced or bored: no tolerance is predicted "
-                   "of what catalogue conditions make",
+                   tr("a surface that is turned, faced or bored: no tolerance is "
+                      "predicted of what catalogue conditions make"),
                    "unsupported");
     else if (of.feature && !fits(facts.of, *of.feature))
-      r.problem_at("of",
-                   wanted_feature(facts.of) + std::string(" for ") + part::name(t.kind),
+      r.problem_at("of", say("{} for {}", wanted_feature(facts.of), part::name(t.kind)),
                    "kind");
     read_datum(r, t, facts.datum, of);
   }
@@ -160,14 +160,12 @@ class ToleranceReader {
   void read_datum(Reader& r, part::Tolerance& t, Datum wants, const Found& of) const {
     if (wants == Datum::none) {
       if (r.has("datum"))
-        r.problem_at("datum",
-                     std::string("no datum: ") + part::name(t.kind) + " has none",
-                     "kind");
+        r.problem_at("datum", say("no datum: {} has none", part::name(t.kind)), "kind");
       return;
     }
     if (t.kind == ToleranceKind::profile && !r.has("datum")) {
       t.kind = ToleranceKind::profile_without_datum;
-      draft_.assume(r.pointer_of("kind"), part::name(t.kind), "no datum given");
+      draft_.assume(r.pointer_of("kind"), part::name(t.kind), tr("no datum given"));
       return;
     }
     const Of want = of.feature ? datum_of(wants, *of.feature) : Of::element_or_face;
@@ -176,33 +174,33 @@ class ToleranceReader {
     const auto datum = found(value);
     t.datum = datum.id;
     if (datum.feature && !fits(want, *datum.feature))
-      r.problem_at(
-          "datum",
-          wanted_feature(want) + std::string(" as datum for ") + part::name(t.kind),
-          "kind");
+      r.problem_at("datum",
+                   say("{} as datum for {}", wanted_feature(want), part::name(t.kind)),
+                   "kind");
     else if (!t.datum.empty() && t.datum == t.of)
-      r.problem_at("datum", "another feature than the toleranced one", "conflict");
+      r.problem_at("datum", tr("another feature than the toleranced one"), "conflict");
   }
 
   // "datum": ["d2", "d6"], written A-B in a tolerance frame.
   void read_common_datum(Reader& r, part::Tolerance& t, Of want) const {
     if (want == Of::face)
-      return r.problem_at("datum", "one face: only elements have a common axis", "kind");
+      return r.problem_at("datum", tr("one face: only elements have a common axis"),
+                          "kind");
     const auto ends = r.items("datum", 2, 2);
     if (ends.size() != 2) return;
     for (std::size_t i = 0; i < 2; ++i) {
       const auto end = found(ends[i]);
       (i == 0 ? t.datum : t.common_datum) = end.id;
       if (end.feature && !fits(Of::element, *end.feature))
-        ends[i].problem("a cylinder or cone, for only elements have a common axis",
+        ends[i].problem(tr("a cylinder or cone, for only elements have a common axis"),
                         "kind");
     }
     const auto a = part::extent(draft_.drawing(), t.datum),
                b = part::extent(draft_.drawing(), t.common_datum);
     if (a && b && !(std::abs(a->z0_mm + a->z1_mm - b->z0_mm - b->z1_mm) > 0))
       r.problem_at("datum",
-                   "two elements whose middles lie apart along the axis, which goes "
-                   "through both",
+                   tr("two elements whose middles lie apart along the axis, which goes "
+                      "through both"),
                    "conflict");
   }
 
@@ -226,7 +224,7 @@ void take_diameter(Reader& r, const part::Tolerance& t, std::vector<Element>& el
   for (auto& e : elements) {
     if (e.id != t.of) continue;
     if (e.limits)
-      r.problem_at("of", "a diameter without fit, limits_mm or another tolerance",
+      r.problem_at("of", tr("a diameter without fit, limits_mm or another tolerance"),
                    "conflict");
     e.limits = t.limits;
   }
@@ -238,7 +236,7 @@ void read_listed(Draft& draft) {
   for (Reader r : draft.root.optional_items("tolerances", 0, 500)) {
     auto t = reader.read(r);
     if (draft.ground(t.of) > 0) {
-      draft.assume(r.pointer(), t.id, "made by grinding: not predicted");
+      draft.assume(r.pointer(), t.id, tr("made by grinding: not predicted"));
       continue;
     }
     if (t.kind == ToleranceKind::diameter && t.limits) {
@@ -333,10 +331,9 @@ void read_general(Draft& draft) {
     }
     if (general.geometrical) assume_form(draft, *general.geometrical, text);
   } catch (const std::domain_error&) {
-    value->problem(
-        "\"ISO 2768-\" with f, m, c or v for sizes and H, K or L for form, such "
-        "as \"ISO 2768-mK\"",
-        "choice");
+    value->problem(tr("\"ISO 2768-\" with f, m, c or v for sizes and H, K or L for form, "
+                      "such as \"ISO 2768-mK\""),
+                   "choice");
   }
 }
 
@@ -359,7 +356,7 @@ part::Limits read_limits(Reader& r) {
   const auto ends = r.numbers("limits_mm", within(-100, 100, "mm"), 2, 2);
   if (ends.size() != 2) return {};
   if (ends[0] >= ends[1])
-    r.problem_at("limits_mm", "[lower, upper] with lower < upper", "order");
+    r.problem_at("limits_mm", tr("[lower, upper] with lower < upper"), "order");
   return {.lower_mm = ends[0], .upper_mm = ends[1]};
 }
 

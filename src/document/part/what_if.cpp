@@ -6,6 +6,7 @@
 #include "document/json/fields.hpp"
 #include "document/json/reference.hpp"
 #include "part_sections.hpp"
+#include "turnwright/base/language.hpp"
 #include "turnwright/document/part_plan.hpp"
 
 namespace turnwright::document {
@@ -54,8 +55,8 @@ json changed(json document, const json& changes, const std::string& pointer,
       *at = value;
     else
       problems.add({pointer + "/set", "\"" + path + "\"",
-                    "the place of a value in this document, as /outer/d1/fit or "
-                    "/setups/0/clampings",
+                    tr("the place of a value in this document, as /outer/d1/fit or "
+                       "/setups/0/clampings"),
                     "reference"});
   }
   return document;
@@ -72,7 +73,8 @@ std::string called(const json& entry) {
 
 void read_what_if(Draft& draft) {
   if (draft.root.has("what_if") && draft.purpose == Purpose::predict)
-    draft.root.problem_at("what_if", "nothing: only plan answers what_if", "unsupported");
+    draft.root.problem_at("what_if", tr("nothing: only plan answers what_if"),
+                          "unsupported");
   for (Reader item : draft.root.optional_items("what_if", 0, kMost)) {
     item = item.as_object();
     if (item.broken()) continue;
@@ -83,15 +85,15 @@ void read_what_if(Draft& draft) {
       const double percent =
           item.number("change_percent", within(kLeastPercent, kMostPercent, "%"));
       if (percent == 0)
-        item.problem_at("change_percent", "a change other than 0", "range");
+        item.problem_at("change_percent", tr("a change other than 0"), "range");
     } else {
       item.text("name", 100);
       const auto set = item.object("set");
       if (!set.broken() && (set.json().empty() || set.json().size() > kChanges))
-        item.problem_at("set", "1 to 50 changes, as {\"/outer/d1/fit\": \"h7\"}",
+        item.problem_at("set", tr("1 to 50 changes, as {\"/outer/d1/fit\": \"h7\"}"),
                         "length");
       else if (!set.broken() && set.json().contains("/what_if"))
-        item.problem_at("set", "no change of what_if itself", "reference");
+        item.problem_at("set", tr("no change of what_if itself"), "reference");
     }
     item.finish();
   }

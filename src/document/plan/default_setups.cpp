@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "turnwright/base/errors.hpp"
+#include "turnwright/base/language.hpp"
 #include "turnwright/planning/prepare.hpp"
 
 namespace turnwright::document {
@@ -29,8 +30,8 @@ LoadedPart with_setups(Variant& variant, const Catalogue& catalogue,
     auto turned = load_variant(other, catalogue, document);
     if (planning::not_made(turned.plan).size() >= not_made) return loaded;
     turned.assumed.push_back({"/setups", setups,
-                              "hold right, then left: the other way round not every "
-                              "surface could be cut"});
+                              tr("hold right, then left: the other way round not every "
+                                 "surface could be cut")});
     variant = std::move(other);
     return turned;
   } catch (const InputError&) {  // the chuck does not hold the part so

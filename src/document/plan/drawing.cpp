@@ -1,7 +1,5 @@
 #include "turnwright/document/drawing.hpp"
 
-#include <fmt/format.h>
-
 #include "document/json/finite.hpp"
 #include "document/part/datum_json.hpp"
 #include "planning/clamping/made_surfaces.hpp"

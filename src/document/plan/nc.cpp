@@ -5,6 +5,7 @@
 #include <cctype>
 #include <set>
 
+#include "base/say.hpp"
 #include "document/json/fields.hpp"
 #include "document/json/read_below.hpp"
 #include "document/plan/controls.hpp"
@@ -44,8 +45,8 @@ void read_work_offset(Reader& r, const gcode::Dialect& d, nc::Settings& s) {
   const auto& all = d.work_offsets;
   if (std::find(all.begin(), all.end(), s.work_offset) != all.end()) return;
   r.problem_at("work_offset",
-               all.empty() ? "none: " + std::string(d.name) + " has no such words"
-                           : "one of " + quoted_list(all),
+               all.empty() ? say("none: {} has no such words", std::string(d.name))
+                           : say("one of {}", quoted_list(all)),
                "choice");
 }
 
@@ -56,7 +57,7 @@ void read_program_number(Reader& r, const gcode::Dialect& d, nc::Settings& s) {
     return;
   }
   r.problem_at("program_number",
-               "none: programs of " + std::string(d.name) + " go by their file's name",
+               say("none: programs of {} go by their file's name", std::string(d.name)),
                "choice");
 }
 
@@ -67,7 +68,7 @@ void read_coolant(Reader& r, nc::Settings& s) {
                     std::all_of(given.begin() + 1, given.end(),
                                 [](unsigned char c) { return std::isdigit(c) != 0; });
   if (!code && !given.empty() && given != "off")
-    r.problem_at("coolant", "\"off\" or a code like \"M8\"", "choice");
+    r.problem_at("coolant", tr("\"off\" or a code like \"M8\""), "choice");
   s.coolant = code ? given : "";
 }
 
@@ -76,7 +77,7 @@ void read_tools(Reader& r, const gcode::Dialect& d, nc::Settings& s) {
   std::set<std::string> ids;
   std::set<int> numbers, offsets;
   const auto once = [](Reader& item, std::string_view key, bool first) {
-    if (!first) item.problem_at(key, "one that no other tool has", "duplicate");
+    if (!first) item.problem_at(key, tr("one that no other tool has"), "duplicate");
   };
   for (auto& entry : r.optional_items("tools", 0, kListedTools)) {
     auto item = entry.as_object();
@@ -93,7 +94,7 @@ void read_tools(Reader& r, const gcode::Dialect& d, nc::Settings& s) {
     if (d.offset == gcode::OffsetNumber::of_tool && tool.offset)
       item.problem_at(
           "offset",
-          "none: the offset of " + std::string(d.name) + " is that of the tool's number",
+          say("none: the offset of {} is that of the tool's number", std::string(d.name)),
           "choice");
     s.tools.push_back(std::move(tool));
   }
@@ -133,8 +134,8 @@ void read_milling(Reader& r, nc::Settings& s) {
     const bool with_speed = member == &nc::MillingCodes::tool_on;
     if (!code.empty() && !is_code(code, with_speed))
       group->problem_at(key,
-                        with_speed ? "codes like \"S{S} M13\", with {S} for the speed"
-                                   : "codes like \"M35\"",
+                        with_speed ? tr("codes like \"S{S} M13\", with {S} for the speed")
+                                   : tr("codes like \"M35\""),
                         "choice");
     s.milling.*member = code;
   }
@@ -154,7 +155,7 @@ nc::Settings read_settings(Reader& r) {
   s.reference_returns = r.boolean_or("reference_returns", s.reference_returns);
   s.cycles = r.boolean_or("cycles", s.cycles);
   if (s.cycles && d.thread_cycle.empty())
-    r.problem_at("cycles", "false: no cycle of " + std::string(d.name) + " is known",
+    r.problem_at("cycles", say("false: no cycle of {} is known", std::string(d.name)),
                  "choice");
   s.drill_cycles = r.boolean_or("drill_cycles", s.drill_cycles);
   read_milling(r, s);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/say.hpp"
 #include "default_setups.hpp"
 #include "document/json/fields.hpp"
 #include "document/json/reference.hpp"
@@ -28,10 +29,9 @@ using Assumed = std::vector<Assumption>;
 void add_grips(const planning::PreparedPart& p, Assumed& assumed) {
   for (std::size_t s = 0; s < p.setups.size(); ++s)
     if (!p.setups[s].grip_mm)
-      assumed.push_back(
-          {"/setups/" + std::to_string(s) + "/grip_mm", p.grips_mm[s],
-           "half the held diameter, at least 15 mm and at most half of what "
-           "is held; less where a surface could not be cut else"});
+      assumed.push_back({"/setups/" + std::to_string(s) + "/grip_mm", p.grips_mm[s],
+                         tr("half the held diameter, at least 15 mm and at most half of "
+                            "what is held; less where a surface could not be cut else")});
 }
 
 void add_drilled_holes(const planning::PreparedPart& p, Assumed& assumed) {
@@ -40,10 +40,9 @@ void add_drilled_holes(const planning::PreparedPart& p, Assumed& assumed) {
       assumed.push_back({"/inner/" + std::to_string(i),
                          {{"drilled_mm", p.drilled_mm[i]}},
                          part::is_hole(p.drawing.inner[i])
-                             ? "the hole's own drill"
-                             : "the drill that leaves at least 0.5 mm on the radius for "
-                               "boring and spares "
-                               "what lies behind the hole"});
+                             ? tr("the hole's own drill")
+                             : tr("the drill that leaves at least 0.5 mm on the radius "
+                                  "for boring and spares what lies behind the hole")});
 }
 
 // The reason why the place cannot be milled in any clamping of the setup that the request
@@ -62,26 +61,26 @@ void add_milled_place(const planning::PreparedPart& p, const planning::MilledPla
     assumed.push_back({pointer, std::move(value), std::move(why)});
   };
   if (!m.setup)
-    return r.problem("a place that some setup leaves free once " +
-                         p.drawing.outer[m.element].id + " is turned",
+    return r.problem(say("a place that some setup leaves free once {} is turned",
+                         p.drawing.outer[m.element].id),
                      "conflict");
   if (!m.given_setup)
-    assume(r.pointer_of("setup"), *m.setup, "the first that leaves it free");
+    assume(r.pointer_of("setup"), *m.setup, tr("the first that leaves it free"));
   else if (const auto why = obstacle(p, m); !why.empty())
-    r.problem_at("setup", "a setup that can mill " + m.id + ": in this one " + why,
+    r.problem_at("setup", say("a setup that can mill {}: in this one {}", m.id, why),
                  "conflict");
   if (const auto later = planning::gripped_later(p, m))
     assume(r.pointer_of("angle_deg"), m.angle_deg,
-           "no jaw of setup " + std::to_string(*later) + " stands on it");
+           say("no jaw of setup {} stands on it", *later));
   if (const double kept = planning::stiffness_kept(p, m); kept < kNotedBelow)
-    assume(r.pointer_of("depth_mm"), m.depth_mm,
-           "the section keeps " +
-               std::to_string(static_cast<int>(std::floor(100 * kept))) +
-               " % of its stiffness here, which later cuts do not count");
+    assume(
+        r.pointer_of("depth_mm"), m.depth_mm,
+        say("the section keeps {} % of its stiffness here, which later cuts do not count",
+            static_cast<int>(std::floor(100 * kept))));
   for (const auto& cutter : m.cutters)
     if (!p.machine.driven_tools->modes.count(cutter.id) && m.cutters.size() == 1)
       assume("/machine/driven_tools/measured", cutter.id,
-             "the tool point is that of the cutter's document, not measured here");
+             tr("the tool point is that of the cutter's document, not measured here"));
 }
 
 void add_milled_places(const LoadedPart& loaded, const planning::PreparedPart& p,
@@ -100,17 +99,16 @@ void add_jaws(const planning::PreparedPart& p, Assumed& assumed) {
     if (p.jaws[s].spares_tube)
       assumed.push_back(
           {"/setups/" + std::to_string(s) + "/grip_force_N", p.jaws[s].roughing_N,
-           "the jaws close with less than the chuck's " +
-               number_text(p.machine.chuck.grip_force_N) +
-               " N so that they strain the hollow part to two thirds of its "
-               "yield strength"});
+           say("the jaws close with less than the chuck's {} N so that they strain the "
+               "hollow part to two thirds of its yield strength",
+               number_text(p.machine.chuck.grip_force_N))});
     if (p.jaws[s].eased)
       assumed.push_back(
           {"/setups/" + std::to_string(s) + "/finishing_grip_force_N",
            p.jaws[s].finishing_N,
-           "the jaws are eased from " + number_text(p.jaws[s].roughing_N) +
-               " N so that their lobes in the tube use at most a quarter "
-               "of each tolerance, but not below a twentieth of that force"});
+           say("the jaws are eased from {} N so that their lobes in the tube use at most "
+               "a quarter of each tolerance, but not below a twentieth of that force",
+               number_text(p.jaws[s].roughing_N))});
   }
 }
 
@@ -126,7 +124,7 @@ void check_given_tools(const LoadedPart& loaded) {
     const auto& tool = (*loaded.plan.operations)[i].tool;
     if (tool && !left(ruled.tools, *tool) && !left(ruled.fixed_tools, *tool))
       problems.add({"/operations/" + std::to_string(i) + "/tool", shown(*tool),
-                    "a tool that the rules of the shop leave", "conflict"});
+                    tr("a tool that the rules of the shop leave"), "conflict"});
   }
   problems.throw_if_any();
 }
@@ -159,13 +157,14 @@ void check_programmed_holes(const LoadedPart& loaded, const planning::MovedFaces
     const double z0 = part::left_z_mm(made, m.element), z1 = z0 + e.length_mm;
     if (m.z_mm < z0 - kRounding_mm || m.z_mm + m.length_mm > z1 + kRounding_mm)
       add(
-          fmt::format("a hole that lies on {} where the middles of the limits in "
-                      "tolerances have it, from {:.6g} mm to {:.6g} mm",
-                      e.id, z0, z1));
+          say("a hole that lies on {} where the middles of the limits in tolerances have "
+              "it, from {:.6g} mm to {:.6g} mm",
+              e.id, z0, z1));
     else if (m.through == planning::Through::wall &&
              m.width_mm >= part::least_hole_mm(made, m.z_mm, m.z_mm + m.length_mm))
-      add("a hole with a bore behind all of its width where the middles of the limits in "
-          "tolerances have the bore");
+      add(
+          tr("a hole with a bore behind all of its width where the middles of the limits "
+             "in tolerances have the bore"));
   }
   problems.throw_if_any();
 }
@@ -187,9 +186,9 @@ void check_programmed_lengths(const LoadedPart& loaded) {
       if (std::abs(longer_mm) > kMost * drawn_mm)
         problems.add({list + std::to_string(i) + "/length_mm",
                       number_text(drawn_mm) + " mm",
-                      fmt::format("a length that the middles of the limits in tolerances "
-                                  "change by at most a half: they make {:.6g} mm of it",
-                                  drawn_mm + longer_mm),
+                      say("a length that the middles of the limits in tolerances change "
+                          "by at most a half: they make {:.6g} mm of it",
+                          drawn_mm + longer_mm),
                       "conflict"});
     }
   };
@@ -213,7 +212,7 @@ planning::PreparedPart with_limit(const ChangedRequest& change,
   std::vector<std::string> names;
   for (const auto& l : all) names.push_back(l.name);
   problems.add({change.pointer, shown(change.limit),
-                expected_reference(change.limit, names, "a limit of this request"),
+                expected_reference(change.limit, names, tr("a limit of this request")),
                 "reference"});
   return part;
 }
@@ -260,8 +259,8 @@ void add_usable(const std::string& name, LoadedPart loaded, const Catalogue& cat
   const std::string prefix = name.empty() ? "" : name + "; ";
   auto any = loaded;
   any.plan.rules.proven.clear();
-  add_usable_once(prefix + "at proven conditions", std::move(loaded), catalogue, all);
-  add_usable_once(prefix + "at any conditions", std::move(any), catalogue, all);
+  add_usable_once(prefix + tr("at proven conditions"), std::move(loaded), catalogue, all);
+  add_usable_once(prefix + tr("at any conditions"), std::move(any), catalogue, all);
   all.back().unless_within =
       all[all.size() - 2].document.part.rules.proven_within_pct / kPercent;
 }
@@ -280,9 +279,9 @@ void add_ways(Variant variant, LoadedPart loaded, std::vector<std::size_t> bored
   const std::string bore = (variant.name.empty() ? "" : variant.name + "; ") +
                            loaded.plan.drawing.inner[open->inner].id + " ";
   auto other = variant;
-  other.name = bore + open->how;
+  other.name = bore + tr(open->how);
   other.document["inner"][open->inner]["kind"] = "hole";
-  variant.name = bore + "bored";
+  variant.name = bore + tr("bored");
   auto settled = bored;
   settled.push_back(open->inner);
   const std::string document = loaded.document;
@@ -341,15 +340,15 @@ Candidates prepared_candidates(const nlohmann::json& json, const Catalogue& cata
       if (!first) first = error;
       const auto& p = error.problems().front();
       out.refused.push_back(
-          {variant.name, p.pointer + ": got " + p.got + ", expected " + p.expected});
+          {variant.name, say("{}: got {}, expected {}", p.pointer, p.got, p.expected)});
     }
   if (out.usable.empty()) throw *first;
   if (const auto all = currencies(out); all.size() > 1)
-    throw InputError(
-        document, {{"/choose/machine", fmt::format("rates in {}", fmt::join(all, ", ")),
-                    "machines whose rates are in one currency, or a rate and a "
-                    "currency in /rates",
-                    "conflict"}});
+    throw InputError(document,
+                     {{"/choose/machine", say("rates in {}", fmt::join(all, ", ")),
+                       tr("machines whose rates are in one currency, or a rate and a "
+                          "currency in /rates"),
+                       "conflict"}});
   return out;
 }
 

@@ -4,6 +4,7 @@
 
 #include "document/json/finite.hpp"
 #include "title_block.hpp"
+#include "turnwright/base/language.hpp"
 
 namespace turnwright::document {
 namespace {
@@ -373,7 +374,7 @@ ordered_json to_json(const ProcessPlan& plan, const std::vector<Assumption>& ass
   if (!plan.tried.empty())
     out["tried"] = list(plan.tried, [](const TriedChange& t) { return json_of(t); });
   out["assumed"] = to_json(assumed);
-  require_finite(out, "process plan");
+  require_finite(out, tr("process plan"));
   return out;
 }
 

@@ -9,6 +9,7 @@
 
 #include "budget.hpp"
 #include "document/json/fields.hpp"
+#include "turnwright/base/language.hpp"
 #include "turnwright/base/units.hpp"
 #include "turnwright/tolerance/acceptance.hpp"
 
@@ -50,16 +51,17 @@ tolerance::PiecewisePolynomial read_polynomial(Reader r) {
   f.breaks_mm = r.numbers("breaks_mm", kAlong, 2, kPieces + 1);
   for (std::size_t k = 0; k + 1 < f.breaks_mm.size(); ++k)
     if (f.breaks_mm[k + 1] <= f.breaks_mm[k]) {
-      r.problem_at("breaks_mm", "rising places", "order");
+      r.problem_at("breaks_mm", tr("rising places"), "order");
       break;
     }
   for (const auto& piece : r.items("coefficients", 1, kPieces))
     f.coefficients.push_back(piece.as_numbers(within(-1e12, 1e12), 1, kCoefficients));
   if (!f.breaks_mm.empty() && !f.coefficients.empty() &&
       f.breaks_mm.size() != f.coefficients.size() + 1)
-    r.problem_at("coefficients", "one list for each piece between two breaks", "count");
+    r.problem_at("coefficients", tr("one list for each piece between two breaks"),
+                 "count");
   else if (r.problems().list.size() == before && tolerance::magnitude_mm(f) > kLargest_mm)
-    r.problem_at("coefficients", "terms that add up to 1000 mm at most", "range");
+    r.problem_at("coefficients", tr("terms that add up to 1000 mm at most"), "range");
   r.finish();
   return f;
 }
@@ -67,7 +69,8 @@ tolerance::PiecewisePolynomial read_polynomial(Reader r) {
 Profile read_profile(const Reader& r) {
   if (r.is_object()) return read_polynomial(r);
   if (!r.broken() && !r.is_array()) {
-    r.problem("a list of samples or an object with breaks_mm and coefficients", "type");
+    r.problem(tr("a list of samples or an object with breaks_mm and coefficients"),
+              "type");
     return {};
   }
   return tolerance::Samples{.e_mm = r.as_numbers(kDeviation, 1, kSamples)};
@@ -83,19 +86,19 @@ void read_places(Reader& r, Profile& profile) {
   auto* samples = std::get_if<tolerance::Samples>(&profile);
   const auto z = r.numbers("z_mm", kAlong, 1, kSamples);
   if (!samples) {
-    r.problem_at("z_mm", "none beside breaks_mm", "combination");
+    r.problem_at("z_mm", tr("none beside breaks_mm"), "combination");
     return;
   }
   samples->z_mm = z;
   if (!z.empty() && !samples->e_mm.empty() && z.size() != samples->e_mm.size())
-    r.problem_at("z_mm", "as many places as e_mm has samples", "count");
+    r.problem_at("z_mm", tr("as many places as e_mm has samples"), "count");
   if (std::ranges::adjacent_find(z, std::greater<>()) != z.end())
-    r.problem_at("z_mm", "places that do not fall", "order");
+    r.problem_at("z_mm", tr("places that do not fall"), "order");
 }
 
 void read_error(Reader& r, Case& c) {
   if (!counts_deflection(c) && !r.has("e_mm")) return;
-  const Reader e = r.at("e_mm", "a list of samples or a piecewise polynomial");
+  const Reader e = r.at("e_mm", tr("a list of samples or a piecewise polynomial"));
   if (c.kind == Kind::length && is_pair(e)) {
     if (const auto faces = e.as_items(2, 2); !faces.empty()) {
       c.other_mm = read_profile(faces[0]);
@@ -110,7 +113,7 @@ void read_error(Reader& r, Case& c) {
 void read_limits(Reader& r, Case& c) {
   const double upper = r.number("upper_mm", kDeviation);
   const double lower = r.number("lower_mm", kDeviation);
-  if (lower >= upper) r.problem_at("lower_mm", "less than upper_mm", "order");
+  if (lower >= upper) r.problem_at("lower_mm", tr("less than upper_mm"), "order");
   c.limits = {.lower_mm = lower, .upper_mm = upper};
 }
 
@@ -169,8 +172,8 @@ std::vector<NamedCase> read_request(const nlohmann::json& request) {
                                   (c.budget->sources.size() + kSorting));
   if (work > kMostWork)
     r.problem_at("cases",
-                 "budgets of 1e9 draws times sources in all, three sources more for "
-                 "each budget to sort its draws",
+                 tr("budgets of 1e9 draws times sources in all, three sources more for "
+                    "each budget to sort its draws"),
                  "range");
   r.finish();
   problems.throw_if_any();

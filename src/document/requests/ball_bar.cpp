@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/say.hpp"
 #include "document/catalogue/calibrated_machine.hpp"
 #include "document/catalogue/machine_fields.hpp"
 #include "document/json/csv.hpp"
@@ -47,7 +48,7 @@ Simulation read_simulation(Reader r) {
   for (const char axis : axes_of(s.test.plane))
     if (s.machine.chain.find(axis) == std::string::npos)
       r.problem_at("plane",
-                   std::string("a plane of two axes of the chain, which has no ") + axis,
+                   say("a plane of two axes of the chain, which has no {}", axis),
                    "conflict");
   return s;
 }
@@ -65,9 +66,10 @@ void read_table(Reader& r, Trace& t) {
     cw = names->text_or("cw", cw);
     names->finish();
     if (theta == ccw || theta == cw || ccw == cw)
-      names->problem("a column twice", "three columns: theta, ccw and cw", "conflict");
+      names->problem(tr("a column twice"), tr("three columns: theta, ccw and cw"),
+                     "conflict");
   }
-  for (const CsvRow& row : csv_rows(r.at("csv", "the text of a table, or its lines"),
+  for (const CsvRow& row : csv_rows(r.at("csv", tr("the text of a table, or its lines")),
                                     {{.name = theta}, {.name = ccw}, {.name = cw}},
                                     OtherColumns::ignored, kTracePoints)) {
     Reader cells(row.value, r.problems(), row.pointer);
@@ -77,7 +79,7 @@ void read_table(Reader& r, Trace& t) {
     t.cw_mm.push_back(sign * unit * cells.number(cw, within(-1e6, 1e6)));
   }
   if (!t.ccw_mm.empty() && t.ccw_mm.size() < kLeast)
-    r.problem_at("csv", "a header and at least 7 rows", "count");
+    r.problem_at("csv", tr("a header and at least 7 rows"), "count");
 }
 
 void read_lists(Reader& r, Trace& t) {
@@ -85,13 +87,13 @@ void read_lists(Reader& r, Trace& t) {
   t.cw_mm = r.numbers("cw_mm", kValue, kLeast, kTracePoints);
   const std::size_t n = t.ccw_mm.size();
   if (n > 0 && !t.cw_mm.empty() && t.cw_mm.size() != n)
-    r.problem_at("cw_mm", "as many values as ccw_mm has", "count");
+    r.problem_at("cw_mm", tr("as many values as ccw_mm has"), "count");
   if (r.has("theta_rad")) {
     t.theta_rad = r.numbers("theta_rad", kAngle, kLeast, kTracePoints);
     if (n > 0 && !t.theta_rad.empty() && t.theta_rad.size() != n)
-      r.problem_at("theta_rad", "as many angles as ccw_mm has values", "count");
+      r.problem_at("theta_rad", tr("as many angles as ccw_mm has values"), "count");
     if (r.has("theta0_rad"))
-      r.problem_at("theta0_rad", "either theta_rad or theta0_rad", "conflict");
+      r.problem_at("theta0_rad", tr("either theta_rad or theta0_rad"), "conflict");
     return;
   }
   if (n == 0) return;
@@ -224,9 +226,8 @@ json with_trace(MachineDocument m, const Trace& t, const Vec3& centre_mm) {
     found = calibrated(plane, sum, m.errors.chain);
   }
   const auto [U, V] = axes_of(plane);
-  return with_errors(
-      std::move(m), found,
-      std::string("ball bar in ") + U + V + ", R " + number_text(t.R_mm) + " mm");
+  return with_errors(std::move(m), found,
+                     say("ball bar in {}{}, R {} mm", U, V, number_text(t.R_mm)));
 }
 
 struct TraceRequest {
@@ -251,7 +252,8 @@ TraceRequest read_trace_request(const json& request) {
   }
   r.finish();
   if (r.is_object() && simulated == analysed)
-    r.problem(simulated ? "both" : "neither", "either simulate or analyse", "conflict");
+    r.problem(simulated ? tr("both") : tr("neither"), tr("either simulate or analyse"),
+              "conflict");
   problems.throw_if_any();
   if (simulation) q.trace = simulate(simulation->machine, simulation->test);
   return q;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/say.hpp"
 #include "document/json/reader.hpp"
 
 namespace turnwright::document::material_calibration {
@@ -55,10 +56,9 @@ std::optional<cutting::RoughnessFit> roughness(const Request& q) {
 
 Problem undetermined(const Request& q, std::size_t cuts, const std::string& column,
                      const std::string& constants, const std::string& test) {
-  return {
-      q.cuts_pointer,
-      std::to_string(cuts) + " cuts with " + column + " that cannot tell " + constants,
-      test, "identifiability"};
+  return {q.cuts_pointer,
+          say("{} cuts with {} that cannot tell {}", cuts, column, constants), test,
+          "identifiability"};
 }
 
 std::size_t measured(const Request& q, std::size_t component) {
@@ -73,7 +73,7 @@ bool force_constants(const Request& q, Fits& all) {
     const Component& c = kComponents[k];
     if (fit && !fit->m)
       all.undetermined.push_back(undetermined(q, measured(q, k), c.column,
-                                              std::string(c.k11) + " and " + c.m,
+                                              say("{} and {}", std::string(c.k11), c.m),
                                               fit->missing[0].test));
     some = some || (fit && fit->m);
   }
@@ -86,18 +86,18 @@ bool life_constants(const Request& q, Fits& all) {
   const auto plain = [&](std::size_t i) {
     return !q.cuts[i].life->longer && !q.cuts[i].life->from_wear;
   };
-  const char* column =
-      std::ranges::all_of(all.lives->cuts, plain) ? "T_min" : "a tool life";
-  all.undetermined.push_back(undetermined(q, all.lives->cuts.size(), column, "n and C",
-                                          all.lives->fit.missing[0].test));
+  const std::string column =
+      std::ranges::all_of(all.lives->cuts, plain) ? "T_min" : tr("a tool life");
+  all.undetermined.push_back(undetermined(q, all.lives->cuts.size(), column,
+                                          tr("n and C"), all.lives->fit.missing[0].test));
   return false;
 }
 
 bool roughness_constants(const Request& q, Fits& all) {
   if (!all.roughness) return false;
   if (all.roughness->hmin_mm) return true;
-  all.undetermined.push_back(
-      undetermined(q, 1, "Ra_um or Rz_um", "hmin_mm", "a second cut with a roughness"));
+  all.undetermined.push_back(undetermined(q, 1, tr("Ra_um or Rz_um"), "hmin_mm",
+                                          tr("a second cut with a roughness")));
   return false;
 }
 
@@ -105,62 +105,64 @@ bool roughness_constants(const Request& q, Fits& all) {
 void warn_of_labs(const Request& q, const std::optional<cutting::Labs>& labs,
                   const std::string& column, std::vector<std::string>& warnings) {
   if (!labs) {
-    warnings.emplace_back("the cuts with " + column +
-                          " that tell a constant are of one lab; how labs differ is not "
-                          "known");
+    warnings.emplace_back(
+        say("the cuts with {} that tell a constant are of one lab; how labs differ is "
+            "not known",
+            column));
     return;
   }
   for (const auto& l : labs->each)
     if (l.measurements == 1)
-      warnings.emplace_back("lab \"" + q.labs[l.lab] + "\" has one cut with " + column +
-                            ", on which alone its factor rests");
+      warnings.emplace_back(
+          say("lab \"{}\" has one cut with {}, on which alone its factor rests",
+              q.labs[l.lab], column));
 }
 
 void warn_of_forces(const Request& q, const cutting::ForceFit& f,
                     std::vector<std::string>& warnings) {
   if (f.law == cutting::ThrustLaw::none && measured(q, kFeed) + measured(q, kPassive) > 0)
     warnings.emplace_back(
-        "not determined: the thrust force; it takes a known kc1.1 and three "
-        "cuts with Fp_N that flow at less than 70 deg to the radius, or "
-        "with Ff_N that flow at more than 20 deg");
+        tr("not determined: the thrust force; it takes a known kc1.1 and three cuts with "
+           "Fp_N that flow at less than 70 deg to the radius, or with Ff_N that flow at "
+           "more than 20 deg"));
 }
 
 void warn_of_thrust(const cutting::ForceFit& f, std::vector<std::string>& warnings) {
   if (f.law == cutting::ThrustLaw::direction && f.thrust->scaled)
     warnings.emplace_back(
-        "the cuts do not tell ratio and edge_N_mm of thrust apart: both "
-        "are the given ones times one number; it takes cuts with Fp_N at "
-        "feeds further apart");
+        tr("the cuts do not tell ratio and edge_N_mm of thrust apart: both are the given "
+           "ones times one number; it takes cuts with Fp_N at feeds further apart"));
 }
 
 void warn_of_scatter(const cutting::LifeScatter& s, double confidence,
                      std::vector<std::string>& warnings) {
   if (!s.s_between)
     warnings.emplace_back(
-        "the scatter between edges is not told apart from what the law of tool life "
-        "misses; it takes two edges at the same speed, feed and depth");
+        tr("the scatter between edges is not told apart from what the law of tool life "
+           "misses; it takes two edges at the same speed, feed and depth"));
   if (s.lack_of_fit_p.value_or(1) < 1 - confidence)
-    warnings.emplace_back("tool lives miss Taylor's law by more than edges scatter: by " +
-                          rounded(100 * *s.s_lack_of_fit) + " %, which has a chance of " +
-                          rounded(*s.lack_of_fit_p));
+    warnings.emplace_back(
+        say("tool lives miss Taylor's law by more than edges scatter: by {} %, which has "
+            "a chance of {}",
+            rounded(100 * *s.s_lack_of_fit), rounded(*s.lack_of_fit_p)));
 }
 
 void warn_of_lives(const Request& q, const Lives& t, std::vector<std::string>& warnings) {
   for (const cutting::Missing& m : t.fit.missing)
-    warnings.emplace_back(m.parameter + " stays at its given " +
-                          rounded(m.parameter == "a" ? q.given_a : q.given_b) +
-                          "; it takes " + m.test);
+    warnings.emplace_back(say("{} stays at its given {}; it takes {}", m.parameter,
+                              rounded(m.parameter == "a" ? q.given_a : q.given_b),
+                              m.test));
   if (t.scatter) warn_of_scatter(*t.scatter, q.options.confidence, warnings);
   if (q.labs.empty()) return;
-  warn_of_labs(q, t.fit.labs, "a tool life", warnings);
+  warn_of_labs(q, t.fit.labs, tr("a tool life"), warnings);
   for (std::size_t lab = 0; lab < q.labs.size(); ++lab) {
     const auto of_lab = [&](std::size_t i) { return q.cuts[i].lab == lab; };
     const auto ended = [&](std::size_t i) {
       return of_lab(i) && !q.cuts[i].life->longer;
     };
     if (std::ranges::any_of(t.cuts, of_lab) && std::ranges::none_of(t.cuts, ended))
-      warnings.emplace_back("lab \"" + q.labs[lab] +
-                            "\" has no tool life that ended; its lives are not used");
+      warnings.emplace_back(say(
+          "lab \"{}\" has no tool life that ended; its lives are not used", q.labs[lab]));
   }
 }
 
@@ -185,7 +187,7 @@ Fits fitted(const Request& q) {
 std::vector<std::string> warnings_of(const Request& q, const Fits& fits) {
   std::vector<std::string> warnings;
   for (const Problem& p : fits.undetermined)
-    warnings.emplace_back("not determined: " + p.got + "; it takes " + p.expected);
+    warnings.emplace_back(say("not determined: {}; it takes {}", p.got, p.expected));
   if (fits.forces) warn_of_forces(q, *fits.forces, warnings);
   if (fits.lives && fits.lives->fit.n) warn_of_lives(q, *fits.lives, warnings);
   if (fits.forces) warn_of_thrust(*fits.forces, warnings);
@@ -195,8 +197,8 @@ std::vector<std::string> warnings_of(const Request& q, const Fits& fits) {
         warn_of_labs(q, fit->labs, kComponents[k].column, warnings);
   if (fits.roughness && fits.roughness->below_corner)
     warnings.emplace_back(
-        "hmin_mm is 0: the cuts are as smooth as the corner alone makes them, or "
-        "smoother");
+        tr("hmin_mm is 0: the cuts are as smooth as the corner alone makes them, or "
+           "smoother"));
   return warnings;
 }
 

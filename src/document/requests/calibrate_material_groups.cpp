@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/say.hpp"
 #include "document/catalogue/catalogue_readers.hpp"
 #include "turnwright/base/distributions.hpp"
 
@@ -26,11 +27,11 @@ json range(const Request& q, const Evidence& e, const Value& value) {
 }
 
 std::string told(const char* key, const Estimate& e) {
-  return std::string(key) + ' ' + rounded(e.lower) + " to " + rounded(e.upper);
+  return say("{} {} to {}", std::string(key), rounded(e.lower), rounded(e.upper));
 }
 std::string note(const Request& q, const Evidence& e, const std::string& intervals) {
-  return std::to_string(e.used.size()) + " cuts, " + rounded(100 * q.options.confidence) +
-         " % intervals: " + intervals;
+  return say("{} cuts, {} % intervals: {}", e.used.size(),
+             rounded(100 * q.options.confidence), intervals);
 }
 double percent(double s) { return 100 * s; }
 
@@ -127,8 +128,8 @@ bool put(const char* name, json value, json& m, json& warnings) {
   Problems problems{.document = "material"};
   read_material(Reader(changed, problems));
   for (const Problem& p : problems.list)
-    warnings.push_back(std::string(name) + " is not replaced: " + p.pointer + ": got " +
-                       p.got + ", expected " + p.expected);
+    warnings.push_back(say("{} is not replaced: {}: got {}, expected {}",
+                           std::string(name), p.pointer, p.got, p.expected));
   if (!problems.list.empty()) return false;
   m = std::move(changed);
   return true;
@@ -143,7 +144,8 @@ Written written(const Request& q, const Fits& fits, json& warnings) {
   const bool direction = law == ThrustLaw::direction;
   const char* name = direction ? "thrust" : "feed_passive";
   if (!q.material) {
-    warnings.push_back("no material given, whose document the constants could go into");
+    warnings.push_back(
+        tr("no material given, whose document the constants could go into"));
     return {nullptr, law == ThrustLaw::none ? nullptr : name};
   }
   Written w{*q.material};

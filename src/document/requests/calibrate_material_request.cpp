@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "base/say.hpp"
 #include "document/catalogue/catalogue_readers.hpp"
 #include "document/catalogue/entries.hpp"
 #include "document/json/csv.hpp"
@@ -51,7 +52,7 @@ std::optional<Life> read_wear(Reader& r, double criterion_mm) {
                                pair[1].as_number(within(0, 10, "mm"))};
     if (!curve.empty() && p.t_min <= curve.back().t_min) {
       pair[0].problem(
-          "a time after the one before, " + number_text(curve.back().t_min) + " min",
+          say("a time after the one before, {} min", number_text(curve.back().t_min)),
           "range");
       good = false;
     }
@@ -70,7 +71,7 @@ std::optional<Life> read_life(Reader& r, double criterion_mm) {
   const auto wear = read_wear(r, criterion_mm);
   if (r.has("T_min") + r.has("T_longer_than_min") + r.has("wear") > 1)
     r.problem_at(r.has("wear") ? "wear" : "T_longer_than_min",
-                 "one life: T_min, T_longer_than_min or wear", "conflict");
+                 tr("one life: T_min, T_longer_than_min or wear"), "conflict");
   if (T) return Life{.T_min = *T};
   if (more) return Life{.T_min = *more, .longer = true};
   return wear;
@@ -98,7 +99,7 @@ MeasuredCut read_cut(Reader r, double criterion_mm, Request& q) {
   if (!c.has_force() && !c.has_roughness() && !r.has("T_min") &&
       !r.has("T_longer_than_min") && !r.has("wear"))
     r.problem(
-        "a measured Fc_N, Ff_N, Fp_N, T_min, T_longer_than_min, wear, Ra_um or Rz_um",
+        tr("a measured Fc_N, Ff_N, Fp_N, T_min, T_longer_than_min, wear, Ra_um or Rz_um"),
         "missing");
   r.finish();
   return c;
@@ -108,15 +109,16 @@ MeasuredCut read_cut(Reader r, double criterion_mm, Request& q) {
 void check_names(const Reader& cut, const MeasuredCut& c, const Request& q,
                  std::set<std::string>& edges) {
   if (!q.labs.empty() && cut.is_object() && !cut.json().contains("lab"))
-    cut.problem("a lab, as other cuts have", "missing");
+    cut.problem(tr("a lab, as other cuts have"), "missing");
   if (c.edge && c.life && !edges.insert(*c.edge).second)
-    cut.problem("edge \"" + *c.edge + "\"", "an edge without a life yet", "conflict");
+    cut.problem(say("edge \"{}\"", *c.edge), tr("an edge without a life yet"),
+                "conflict");
 }
 
 std::vector<Reader> cuts_of(Reader& r, Request& q, std::vector<CsvRow>& rows) {
   const bool csv = r.has("csv");
   if (csv && r.has("cuts")) {
-    r.problem_at("csv", "either cuts or csv", "conflict");
+    r.problem_at("csv", tr("either cuts or csv"), "conflict");
     return {};
   }
   q.cuts_pointer = csv ? "/csv" : "/cuts";
@@ -152,8 +154,7 @@ void read_cuts(Reader& r, Request& q) {
   std::set<std::string> edges;
   for (std::size_t i = 0; i < cuts.size(); ++i) check_names(cuts[i], q.cuts[i], q, edges);
   if (q.labs.size() > kLabs)
-    r.problem_at(r.has("csv") ? "csv" : "cuts", std::to_string(kLabs) + " labs at most",
-                 "range");
+    r.problem_at(r.has("csv") ? "csv" : "cuts", say("{} labs at most", kLabs), "range");
 }
 
 void read_base(Reader& r, const Catalogue& catalogue, Request& q) {
@@ -190,7 +191,7 @@ Request read(const json& document, const Catalogue& catalogue) {
   read_base(r, catalogue, q);
   if (r.has("id")) q.id = read_id(r);
   q.name = r.optional_text("name");
-  q.source = r.text_or("source", "measured cuts of the own shop", 1000);
+  q.source = r.text_or("source", tr("measured cuts of the own shop"), 1000);
   Reader tool_used = r.object("tool");
   q.tool = read_tool_used(tool_used);
   Bounds confidence = within(0.5, 0.999);
@@ -198,7 +199,7 @@ Request read(const json& document, const Catalogue& catalogue) {
   q.options.outlier_p = r.number_or("outlier_p", within(0, 0.5), q.options.outlier_p);
   read_cuts(r, q);
   if (q.tool.re_mm == 0 && std::ranges::any_of(q.cuts, &MeasuredCut::has_roughness))
-    tool_used.problem_at("re_mm", "a corner radius, which the roughness depends on",
+    tool_used.problem_at("re_mm", tr("a corner radius, which the roughness depends on"),
                          "conflict");
   r.finish();
   problems.throw_if_any();

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/say.hpp"
 #include "document/json/csv.hpp"
 #include "document/json/fields.hpp"
 #include "document/part/shaft_fields.hpp"
@@ -78,7 +79,7 @@ std::pair<TestCut, bool> read_cut(Reader r, const Bounds& places) {
 void read_cuts(Reader& r, const Bounds& places, ChuckRequest& q) {
   const bool csv = r.has("csv");
   if (csv && r.has("tests")) {
-    r.problem_at("csv", "either tests or csv", "conflict");
+    r.problem_at("csv", tr("either tests or csv"), "conflict");
     return;
   }
   q.cuts_pointer = csv ? "/csv" : "/tests";
@@ -109,8 +110,9 @@ void read_cuts(Reader& r, const Bounds& places, ChuckRequest& q) {
   q.measured = without.empty();
   if (!without.empty() && without.size() < items.size())
     for (const std::string& pointer : without)
-      r.problems().add({pointer + "/radius_error_mm", "nothing",
-                        "an error for every cut, or for none to plan them", "missing"});
+      r.problems().add({pointer + "/radius_error_mm", tr("nothing"),
+                        tr("an error for every cut, or for none to plan them"),
+                        "missing"});
 }
 
 Graph read_graph(Reader r) {
@@ -124,13 +126,11 @@ Graph read_graph(Reader r) {
   r.finish();
   if (g.z_mm.empty() || g.e_mm.empty()) return g;
   if (g.z_mm.size() != g.e_mm.size())
-    r.problem_at("e_mm", "as many errors as z_mm has values", "count");
+    r.problem_at("e_mm", tr("as many errors as z_mm has values"), "count");
   const std::size_t least = static_cast<std::size_t>(g.options.max_degree) + 3;
   if (std::set<double>(g.z_mm.begin(), g.z_mm.end()).size() < least)
-    r.problem_at(
-        "z_mm",
-        "at least max_degree + 3 = " + std::to_string(least) + " different places",
-        "range");
+    r.problem_at("z_mm", say("at least max_degree + 3 = {} different places", least),
+                 "range");
   return g;
 }
 
@@ -178,7 +178,7 @@ struct PlaneAnswer {
   std::string name() const { return plane == Plane::radial ? "radial" : "tangential"; }
 };
 
-std::string joined(const std::vector<std::string>& parts, const char* separator) {
+std::string joined(const std::vector<std::string>& parts, const std::string& separator) {
   std::string text;
   for (const std::string& part : parts) text += (text.empty() ? "" : separator) + part;
   return text;
@@ -189,25 +189,24 @@ PlaneAnswer answer(PlaneAnswer out, const ChuckRequest& q, Problems& problems) {
   for (const PlaneTest& t : out.tests)
     if (!std::isfinite(t.y_mm))
       throw ModelRangeError(
-          "chuck: the computed deflection of the shaft is not a finite number; check its "
-          "dimensions and the forces");
+          tr("chuck: the computed deflection of the shaft is not a finite number; check "
+             "its dimensions and the forces"));
   out.can = identifiability(out.tests, out.plane);
   if (!q.measured) return out;
   const auto refuse = [&](const std::string& got, std::string expected) {
-    problems.add(
-        {q.cuts_pointer,
-         std::to_string(out.tests.size()) + " " + out.name() + " cuts that " + got,
-         std::move(expected), "identifiability"});
+    problems.add({q.cuts_pointer,
+                  say("{} {} cuts that {}", out.tests.size(), out.name(), got),
+                  std::move(expected), "identifiability"});
   };
   if (out.can.rank < 3) {
     std::vector<std::string> open, missing;
     for (const auto& n : out.can.null_directions) open.push_back(words(n));
     for (const auto& m : out.can.missing) missing.push_back(words(m));
-    refuse("cannot tell " + joined(open, "; "), joined(missing, " and "));
+    refuse(say("cannot tell {}", joined(open, "; ")), joined(missing, tr(" and ")));
   } else if (out.can.degrees_of_freedom < 1) {
     const auto n = static_cast<long>(out.tests.size());
-    refuse("leave no error to judge by",
-           "at least " + std::to_string(n + 1 - out.can.degrees_of_freedom) + " cuts");
+    refuse(tr("leave no error to judge by"),
+           say("at least {} cuts", n + 1 - out.can.degrees_of_freedom));
   } else {
     out.fit = identify(out.tests, out.plane);
   }
@@ -292,26 +291,29 @@ void warn(const PlaneAnswer& a, const ChuckRequest& q, json& warnings) {
     warnings.push_back(a.name() + ": " + text);
   };
   for (const std::string& setup : a.can.one_force)
-    remark("setup " + setup + " has one force, so its cuts say nothing of c0");
+    remark(say("setup {} has one force, so its cuts say nothing of c0", setup));
   if (!a.fit) return;
   const PlaneFit& fit = *a.fit;
   if (fit.contradiction > kContradiction)
-    remark("the cuts contradict every elastic chuck by " +
-           number_text(std::round(10 * std::sqrt(fit.contradiction)) / 10) +
-           " standard deviations; look for drift, wrong forces or a part that gave way");
-  else if (fit.on_border)
     remark(
-        "the best elastic chuck has c1^2 = c0 c2; the cuts do not tell the three apart");
+        say("the cuts contradict every elastic chuck by {} standard deviations; look for "
+            "drift, wrong forces or a part that gave way",
+            number_text(std::round(10 * std::sqrt(fit.contradiction)) / 10)));
+  else if (fit.on_border)
+    remark(tr(
+        "the best elastic chuck has c1^2 = c0 c2; the cuts do not tell the three apart"));
   double coarsest = 0;
   for (const PlaneTest& t : a.tests) {
     const Estimate e = predicted_deflection(fit, t.z_mm, t.F_N, t.C_Nmm);
     if (e.u > 0) coarsest = std::max(coarsest, e.u / std::max(std::abs(e.value), 1e-9));
   }
   if (coarsest > kCoarse)
-    remark("predicted deflections at the cuts have standard errors up to " +
-           percent_text(coarsest) + "; most useful next: " + words(a.can.most_useful));
+    remark(
+        say("predicted deflections at the cuts have standard errors up to {}; most "
+            "useful next: {}",
+            percent_text(coarsest), words(a.can.most_useful)));
   if (q.Lc_mm && !springs(fit.root, *q.Lc_mm))
-    remark("no three springs with this Lc_mm give this compliance");
+    remark(tr("no three springs with this Lc_mm give this compliance"));
 }
 
 json estimates(const PlaneFit& radial, const PlaneFit* tangential, const TestCut& at) {
@@ -403,7 +405,7 @@ void add_chuck(json& result, const ChuckRequest& q, Problems& problems) {
   if (tangential) warn(*tangential, q, result["warnings"]);
   if (q.measured && !q.tool_rr_mm_N)
     result["warnings"].push_back(
-        "tool_rr_mm_N is not given: c0 holds the compliance of tool and slide too");
+        tr("tool_rr_mm_N is not given: c0 holds the compliance of tool and slide too"));
 }
 
 }  // namespace

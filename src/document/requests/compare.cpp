@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/say.hpp"
 #include "document/json/csv.hpp"
 #include "document/json/fields.hpp"
 #include "turnwright/volumetric/agreement.hpp"
@@ -82,8 +83,7 @@ RunRow line_row(const CsvRow& line, const std::map<std::size_t, std::string>& ru
   for (const auto& [run, column] : run_columns)
     row.runs.value[run - 1] = cells.optional_number(column, kRun);
   if (const auto n = values(row.runs).size(); n < 2)
-    problems.add(
-        {line.pointer, std::to_string(n) + " runs", "two runs or more", "count"});
+    problems.add({line.pointer, say("{} runs", n), tr("two runs or more"), "count"});
   return row;
 }
 
@@ -97,17 +97,17 @@ std::vector<RunRow> read_table(const Reader& csv) {
   const auto runs =
       std::ranges::count_if(columns, [](const CsvColumn& c) { return !c.text; });
   if (!named("param") || runs < 2) {
-    csv.problem("a first line without them",
-                "columns param and two or more of test1, test2, .. (or run1, ..); "
-                "group and unit if there are any",
+    csv.problem(tr("a first line without them"),
+                tr("columns param and two or more of test1, test2, .. (or run1, ..); "
+                   "group and unit if there are any"),
                 "missing");
     return {};
   }
   std::map<std::size_t, std::string> run_columns;
   for (const CsvColumn& c : columns)
     if (!c.text && !run_columns.emplace(run_of(c.name), c.name).second)
-      csv.problem("a first line with run " + std::to_string(run_of(c.name)) + " twice",
-                  "each run once", "duplicate");
+      csv.problem(say("a first line with run {} twice", run_of(c.name)),
+                  tr("each run once"), "duplicate");
   std::vector<RunRow> out;
   for (const CsvRow& line : csv_rows(csv, columns, OtherColumns::refused, kParameters))
     out.push_back(line_row(line, run_columns, csv.problems()));
@@ -129,7 +129,7 @@ Calibration read_calibration(Reader r) {
   if (r.has("csv")) {
     c.rows = read_table(r.at("csv"));
     if (r.has("parameters"))
-      r.problem_at("parameters", "either csv or parameters", "conflict");
+      r.problem_at("parameters", tr("either csv or parameters"), "conflict");
   } else {
     for (const Reader& item : r.items("parameters", 1, kParameters))
       c.rows.push_back(read_row(item));
@@ -139,8 +139,8 @@ Calibration read_calibration(Reader r) {
     const std::string& name = row->runs.name;
     if (std::any_of(c.rows.begin(), row,
                     [&](const RunRow& other) { return other.runs.name == name; }))
-      r.problems().add(
-          {row->pointer + "/name", '"' + name + '"', "each parameter once", "duplicate"});
+      r.problems().add({row->pointer + "/name", '"' + name + '"',
+                        tr("each parameter once"), "duplicate"});
     double factor = sign * (name.ends_with('b') ? reversal : 1.0);
     if (length && is_scale(name) && row->unit == "um") {
       factor *= 1000 / *length;
@@ -211,8 +211,8 @@ void add_jumps(const Calibration& own, const Calibration& other, json& jumps,
                        {"parameters", jump.parameters},
                        {"jump", jump.jump},
                        {"overlap_changes_without_it", changed}});
-      notes.push_back(own.name + ": run " + std::to_string(jump.run + 1) +
-                      " jumps alike in " + names + ", a common cause");
+      notes.push_back(say("{}: run {} jumps alike in {}, a common cause", own.name,
+                          jump.run + 1, names));
     }
   }
 }
@@ -230,13 +230,14 @@ json compare(const json& request) {
     const RunRow* other = row_of(b, row.runs.name);
     if (other && other->unit != row.unit)
       problems.add({other->pointer + "/unit", '"' + other->unit + '"',
-                    "the unit of a's " + row.runs.name + ", \"" + row.unit + '"',
+                    say("the unit of a's {}, \"{}\"", row.runs.name, row.unit),
                     "conflict"});
   }
   const bool common = std::ranges::any_of(
       a.rows, [&](const RunRow& row) { return row_of(b, row.runs.name) != nullptr; });
   if (problems.list.empty() && !common)
-    r.problem("no parameter in both", "at least one parameter in both", "conflict");
+    r.problem(tr("no parameter in both"), tr("at least one parameter in both"),
+              "conflict");
   problems.throw_if_any();
 
   json parameters = json::array(), agreeing = json::array(), only_a = json::array(),
@@ -252,9 +253,8 @@ json compare(const json& request) {
   }
   for (const RunRow& row : b.rows)
     if (!row_of(a, row.runs.name)) only_b.push_back(row.runs.name);
-  notes.push_back(std::to_string(agreeing.size()) + " of " +
-                  std::to_string(parameters.size()) +
-                  " parameters agree within one standard deviation of each");
+  notes.push_back(say("{} of {} parameters agree within one standard deviation of each",
+                      agreeing.size(), parameters.size()));
   add_jumps(a, b, jumps, notes);
   add_jumps(b, a, jumps, notes);
   return {{"parameters", parameters}, {"agreeing", agreeing},  {"only_in_a", only_a},

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/say.hpp"
 #include "document/catalogue/machine_fields.hpp"
 #include "document/json/fields.hpp"
 #include "turnwright/volumetric/compensation.hpp"
@@ -34,12 +35,12 @@ std::vector<std::string> lines_of(const Reader& r) {
       if (line.is_text())
         out.push_back(line.json());
       else
-        line.problem("a line of the program", "type");
+        line.problem(tr("a line of the program"), "type");
     }
     return out;
   }
   if (!r.is_text()) {
-    r.problem("the text of a program, or the list of its lines", "type");
+    r.problem(tr("the text of a program, or the list of its lines"), "type");
     return out;
   }
   const std::string text = r.as_text(kLines * kLineBytes);
@@ -56,18 +57,17 @@ std::vector<std::string> read_program(const Reader& r) {
   if (r.broken()) return {};
   auto out = lines_of(r);
   if (out.size() > kLines)
-    r.problem(std::to_string(out.size()) + " lines",
-              "at most " + std::to_string(kLines) + " lines", "count");
+    r.problem(say("{} lines", out.size()), say("at most {} lines", kLines), "count");
   for (std::size_t i = 0; i < out.size(); ++i) {
-    const auto fault = [&](const std::string& got, const char* expected) {
+    const auto fault = [&](const std::string& got, const std::string& expected) {
       const auto at = r.is_array() ? r.pointer() + "/" + std::to_string(i)
                                    : r.pointer() + "#line " + std::to_string(i + 1);
       r.problems().add({at, got, expected, "range"});
     };
     if (out[i].size() > kLineBytes)
-      fault(std::to_string(out[i].size()) + " bytes", "a line of at most 1000 bytes");
+      fault(say("{} bytes", out[i].size()), tr("a line of at most 1000 bytes"));
     if (out[i].find('\n') != std::string::npos)
-      fault("a line feed within the line", "one line of the program");
+      fault(tr("a line feed within the line"), tr("one line of the program"));
   }
   return out;
 }
@@ -121,26 +121,27 @@ CompensationRequest read_compensation_request(const json& document) {
   read_offsets(r, q.setup);
   q.options = read_options(r);
   q.options.tolerance_mm = q.setup.tolerance_mm;
-  q.lines = read_program(r.at("program", "the text of a program, or its lines"));
+  q.lines = read_program(r.at("program", tr("the text of a program, or its lines")));
   r.finish();
   if (q.lines.empty() && problems.list.empty())
-    r.problem_at("program", "at least one line", "range");
+    r.problem_at("program", tr("at least one line"), "range");
   problems.throw_if_any();
   return q;
 }
 
 json assumed(const json& request, const NcSetup& setup, const NcProgram& program) {
   json out = json::array();
-  const auto assume = [&out](const std::string& pointer, json value, const char* why) {
+  const auto assume = [&out](const std::string& pointer, json value,
+                             const std::string& why) {
     out.push_back({{"pointer", pointer}, {"value", std::move(value)}, {"why", why}});
   };
   if (!request.contains("start_mm"))
-    assume("/start_mm", {0, 0, 0}, "where the tip stands before the first move");
+    assume("/start_mm", {0, 0, 0}, tr("where the tip stands before the first move"));
   if (setup.lathe && !request.contains("diameter"))
-    assume("/diameter", false, "X words are radii until G7");
+    assume("/diameter", false, tr("X words are radii until G7"));
   if (program.rapid_assumed > 0)
     assume("/program#line " + std::to_string(program.rapid_assumed), "G0",
-           "coordinates before any of G0 to G3");
+           tr("coordinates before any of G0 to G3"));
   return out;
 }
 

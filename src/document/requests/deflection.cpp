@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/say.hpp"
 #include "document/json/fields.hpp"
 #include "document/json/finite.hpp"
 #include "document/part/milled_shaft.hpp"
@@ -69,7 +70,7 @@ Root read_root(Reader& chuck, std::string_view plane) {
   r->finish();
   const bool read = !std::isnan(root.c0_mm_N + root.c1_rad_N + root.c2_rad_Nmm);
   if (read && !elastic(root))
-    r->problem("c0_mm_N times c2_rad_Nmm at least c1_rad_N squared", "conflict");
+    r->problem(tr("c0_mm_N times c2_rad_Nmm at least c1_rad_N squared"), "conflict");
   return root;
 }
 
@@ -108,7 +109,7 @@ BoringBar read_bar(Reader& clamping, double widest_mm) {
   if (bar.bore_diameter_mm < widest_mm)
     clamping.problem_at(
         "bore_diameter_mm",
-        expected_number(at_least(widest_mm, "mm")) + ", the bar's largest diameter",
+        say("{}, the bar's largest diameter", expected_number(at_least(widest_mm, "mm"))),
         "conflict");
   else if (bar.tip_offset_mm > room)
     clamping.problem_at("tip_offset_mm", expected_number(within(0, room, "mm")),
@@ -154,14 +155,14 @@ std::optional<Load> read_load(Reader& request) {
 std::optional<Passes> read_passes(Reader& law) {
   if (!law.has("passes_ap_mm")) {
     if (law.has("blank_runout_mm"))
-      law.problem_at("blank_runout_mm", "nothing without passes_ap_mm", "conflict");
+      law.problem_at("blank_runout_mm", tr("nothing without passes_ap_mm"), "conflict");
     return std::nullopt;
   }
   Passes p;
   p.ap_mm = law.numbers("passes_ap_mm", within(0, 1e4, "mm"), 1, 100);
   const double first = p.ap_mm.empty() ? 0 : p.ap_mm.front();
   if (!p.ap_mm.empty() && !(first > 0))
-    law.problem_at("passes_ap_mm", "a first pass that cuts: above 0 mm", "range");
+    law.problem_at("passes_ap_mm", tr("a first pass that cuts: above 0 mm"), "range");
   // The tool must not leave the part in the first pass.
   p.runout_mm = law.number_or("blank_runout_mm",
                               at_least_below(0, first > 0 ? first : 1e4, "mm"), 0);
@@ -266,7 +267,7 @@ DeflectionRequest read_deflection_request(const json& document) {
   if (q.bar) {
     for (const char* key : {"force_law", "face", "in_process", "shoulder_correction"})
       if (r.has(key))
-        r.problem_at(key, "nothing: a boring bar is not turned", "conflict");
+        r.problem_at(key, tr("nothing: a boring bar is not turned"), "conflict");
   } else {
     q.force_law = read_force_law(r, q.passes);
     q.face = read_face(r, q.shaft, on_shaft);
@@ -274,13 +275,14 @@ DeflectionRequest read_deflection_request(const json& document) {
                  .shoulder_correction = r.boolean_or("shoulder_correction", false)};
   }
   if (q.milled && (q.bar || q.steady))
-    r.problem_at("shaft", q.bar ? "a bar without slots" : "no slots with a steady rest",
+    r.problem_at("shaft",
+                 q.bar ? tr("a bar without slots") : tr("no slots with a steady rest"),
                  "conflict");
   q.load = read_load(r);
   if (q.load && r.has("force_law"))
-    r.problem_at("force_law", "either load or force_law", "conflict");
+    r.problem_at("force_law", tr("either load or force_law"), "conflict");
   if (!r.has("load") && !r.has("force_law") && (q.bar || !r.has("face")))
-    r.problem_at("load", q.bar ? "a load" : "load or force_law", "missing");
+    r.problem_at("load", q.bar ? tr("a load") : tr("load or force_law"), "missing");
   r.finish();
   problems.throw_if_any();
   return q;
@@ -430,13 +432,14 @@ json face(const Held& held, const DeflectionRequest& q) {
 json warnings(const DeflectionRequest& q) {
   json list = json::array();
   for (const std::size_t i : thin_walls(q.shaft.segments))
-    list.push_back("/shaft/segments/" + std::to_string(i) +
-                   ": the wall is thinner than 0.2 of the radius; rings ovalise and the "
-                   "beam model is void");
+    list.push_back(
+        say("/shaft/segments/{}: the wall is thinner than 0.2 of the radius; rings "
+            "ovalise and the beam model is void",
+            i));
   if (q.bar && q.bar->tip_offset_mm < widest_mm(q.shaft) / 2)
     list.push_back(
-        "/clamping/tip_offset_mm: the bar's radius is larger; where it is widest it "
-        "touches the bore before its tip does");
+        tr("/clamping/tip_offset_mm: the bar's radius is larger; where it is widest it "
+           "touches the bore before its tip does"));
   return list;
 }
 

@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/say.hpp"
 #include "document/response/response_file.hpp"
 #include "document/response/response_table.hpp"
 #include "document/response/response_taps.hpp"
@@ -35,7 +36,7 @@ using Lines = std::vector<MeasuredLine>;
 Lines in_band(Reader& r, Lines lines) {
   const double from = r.number_or("from_Hz", kFrequency, 0),
                to = r.number_or("to_Hz", kFrequency, 1e6);
-  if (from >= to) r.problem_at("to_Hz", "more than from_Hz", "order");
+  if (from >= to) r.problem_at("to_Hz", tr("more than from_Hz"), "order");
   std::erase_if(lines, [&](const MeasuredLine& line) {
     return !(line.frequency_Hz > 0 && line.frequency_Hz >= from &&
              line.frequency_Hz <= to && line.coherence.value_or(1) >= kLeastCoherence);
@@ -70,11 +71,12 @@ std::string short_Hz(double w_rad_s) {
 }
 
 std::string counted(std::size_t lines) {
-  return lines == 1 ? "1 line" : std::to_string(lines) + " lines";
+  return lines == 1 ? tr("1 line") : say("{} lines", lines);
 }
 
 std::string with_article(int derivative) {
-  return (derivative == 2 ? "an " : "a ") + quantity_of(derivative);
+  if (derivative == 0) return tr("a receptance");
+  return derivative == 1 ? tr("a mobility") : tr("an accelerance");
 }
 
 /// Reports why there are no modes, at the line nearest to the frequency that shows it.
@@ -92,31 +94,32 @@ void report(Reader& r, const MeasuredResponse& measured, const NoFit& no,
   switch (no.why) {
     case NoFit::Why::too_few_lines:
       problem.got = counted(lines.size());
-      problem.expected = "at least " + std::to_string(3 * modes.value_or(1) + 2) +
-                         " of the band, 3 for each mode and 2";
+      problem.expected = say("at least {} of the band, 3 for each mode and 2",
+                             3 * modes.value_or(1) + 2);
       problem.code = "count";
       break;
     case NoFit::Why::no_peak:
-      problem.got = no.w_rad_s > 0 ? "no peak, the nearest to one at " + f : "no peak";
-      problem.expected = "a mode among the lines, damped by less than 0.5";
+      problem.got =
+          no.w_rad_s > 0 ? say("no peak, the nearest to one at {}", f) : tr("no peak");
+      problem.expected = tr("a mode among the lines, damped by less than 0.5");
       break;
     case NoFit::Why::negative:
-      problem.got = "a mode of negative mass at " + f;
+      problem.got = say("a mode of negative mass at {}", f);
       problem.expected =
-          "the receptance of a drive point under e^(+i w t): imaginary part < 0 at a "
-          "peak; is the unit that of the quantity measured, and is motion along the "
-          "force counted as positive (else \"reversed\": true)?";
+          tr("the receptance of a drive point under e^(+i w t): imaginary part < 0 at a "
+             "peak; is the unit that of the quantity measured, and is motion along the "
+             "force counted as positive (else \"reversed\": true)?");
       break;
     case NoFit::Why::not_told:
-      problem.got = no.w_rad_s > 0 ? "a mode at " + f + " that the lines do not tell"
-                                   : "fewer modes";
-      problem.expected = "fewer modes asked, more lines or less noise";
+      problem.got = no.w_rad_s > 0 ? say("a mode at {} that the lines do not tell", f)
+                                   : tr("fewer modes");
+      problem.expected = tr("fewer modes asked, more lines or less noise");
       break;
     case NoFit::Why::other_quantity:
       problem.pointer = r.pointer_of("unit");
-      problem.got = std::string("the unit of ") + with_article(measured.derivative);
-      problem.expected = std::string("that of ") + with_article(no.derivative) +
-                         ", whose modes explain these lines far better";
+      problem.got = say("the unit of {}", with_article(measured.derivative));
+      problem.expected = say("that of {}, whose modes explain these lines far better",
+                             with_article(no.derivative));
       problem.code = "unit";
       break;
   }
@@ -182,7 +185,8 @@ std::optional<ordered_json> described_coherence(const Lines& lines) {
 /// The response in the one form in which it is given.
 std::optional<MeasuredResponse> read_measured(Reader& r) {
   const int forms = int{r.has("csv")} + int{r.has("uff")} + int{r.has("taps")};
-  if (forms > 1) r.problem("several of them", "one of csv, uff and taps", "exclusive");
+  if (forms > 1)
+    r.problem(tr("several of them"), tr("one of csv, uff and taps"), "exclusive");
   if (r.has("taps")) return read_response_taps(r);
   return r.has("uff") ? read_response_file(r) : read_response_table(r);
 }
@@ -203,8 +207,7 @@ std::optional<MeasuredAxis> read_frequency_response(Reader r, AxisKey axis) {
   const auto modes = r.optional_integer("modes", 1, chatter::kMostModes);
   r.finish();
   if (measured && lines.size() > kFrequencyLines)
-    r.problem_at(measured->key,
-                 "at most " + std::to_string(kFrequencyLines) + " lines in the band",
+    r.problem_at(measured->key, say("at most {} lines in the band", kFrequencyLines),
                  "count");
   if (!measured || r.broken() || problems_of(r) > before) return std::nullopt;
   measured->lines = std::move(lines);
@@ -274,13 +277,13 @@ std::optional<std::string> doubt_of_hidden(const MeasuredAxis& measured) {
   if (worst == hidden.end() || !matters(*worst)) return std::nullopt;
   const auto last = std::ranges::find_if(hidden.rbegin(), hidden.rend(), matters);
   const std::string share = three_digits(worst->share);
-  return measured.pointer + ": up to the octave of " +
-         three_digits(hertz(last->wn_rad_s)) +
-         " Hz noise may hide a mode; its peak may be " + share +
-         " of the highest one's, and it would chatter from " +
-         three_digits(1 / worst->share) +
-         " of the least depth on at which that one does: more averages, or receptance "
-         "or mobility in place of accelerance, show more";
+  return say(
+      "{}: up to the octave of {} Hz noise may hide a mode; its peak may be {} of the "
+      "highest one's, and it would chatter from {} of the least depth on at which that "
+      "one does: more averages, or receptance or mobility in place of accelerance, show "
+      "more",
+      measured.pointer, three_digits(hertz(last->wn_rad_s)), share,
+      three_digits(1 / worst->share));
 }
 
 /// Of the modes at which noise or a second source is a part of the motion.
@@ -291,10 +294,10 @@ void add_doubts_of_coherence(const MeasuredAxis& measured,
   for (const chatter::FittedMode& m : measured.fit.modes) {
     const auto& line = nearest_line(measured.response.lines, hertz(m.wn_rad_s.value));
     if (*line.coherence < kUsual)
-      out.push_back(line.pointer + ": a coherence of " + three_digits(*line.coherence) +
-                    " at the mode of " + short_Hz(m.wn_rad_s.value) +
-                    ", where more than 0.8 is usual: noise, a double hit or a loose "
-                    "sensor is a part of it");
+      out.push_back(
+          say("{}: a coherence of {} at the mode of {}, where more than 0.8 is usual: "
+              "noise, a double hit or a loose sensor is a part of it",
+              line.pointer, three_digits(*line.coherence), short_Hz(m.wn_rad_s.value)));
   }
 }
 
@@ -305,14 +308,15 @@ std::vector<std::string> doubts(const MeasuredAxis& measured) {
   const ModalFit& fit = measured.fit;
   if (!(fit.explained >= kExplained))
     out.push_back(
-        measured.pointer + ": the modes explain " +
-        number_text(std::round(1000 * fit.explained) / 10) +
-        " % of the response's squares, less than 90 %: its limits are not to be "
-        "trusted; is the unit right, the band wide enough, the noise low?");
+        say("{}: the modes explain {} % of the response's squares, less than 90 %: its "
+            "limits are not to be trusted; is the unit right, the band wide enough, the "
+            "noise low?",
+            measured.pointer, number_text(std::round(1000 * fit.explained) / 10)));
   if (measured.conjugate)
-    out.push_back(measured.pointer + "/" + measured.response.key +
-                  ": its phase is that under a force e^(-i w t): the imaginary part of "
-                  "the receptance is positive at its peaks; its conjugate was fitted");
+    out.push_back(
+        say("{}/{}: its phase is that under a force e^(-i w t): the imaginary part of "
+            "the receptance is positive at its peaks; its conjugate was fitted",
+            measured.pointer, measured.response.key));
   for (const std::string& doubt : measured.response.doubts) out.push_back(doubt);
   add_doubts_of_coherence(measured, out);
   if (auto doubt = doubt_of_hidden(measured)) out.push_back(std::move(*doubt));
@@ -320,9 +324,10 @@ std::vector<std::string> doubts(const MeasuredAxis& measured) {
       fit.modes, {}, [](const chatter::FittedMode& m) { return m.k_N_mm.value; });
   const double k = weakest->k_N_mm.value;
   if (!contains(usual, k))
-    out.push_back(measured.pointer +
-                  "/unit: the most compliant mode has a stiffness of " + three_digits(k) +
-                  ", where " + expected_number(usual) + " is usual; is the unit right?");
+    out.push_back(
+        say("{}/unit: the most compliant mode has a stiffness of {}, where {} is usual; "
+            "is the unit right?",
+            measured.pointer, three_digits(k), expected_number(usual)));
   return out;
 }
 

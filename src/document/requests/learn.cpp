@@ -1,12 +1,11 @@
 #include "turnwright/document/learn.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>
 
+#include "base/say.hpp"
 #include "document/json/reader.hpp"
 #include "learn_factors.hpp"
 #include "turnwright/learning/advice.hpp"
@@ -27,19 +26,20 @@ struct Meaning {
   const char *name, *sentence;  ///< behind "part 7: 0.9843 mm"
 };
 constexpr Meaning kMeanings[] = {
-    {MixUp::outlier, "outlier", "does not belong to the other parts"},
-    {MixUp::swapped, "swapped", "belongs to"},
-    {MixUp::inch, "inch", "belongs if it is in inches"},
-    {MixUp::inch_twice, "inch-twice", "belongs if it was taken for inches"},
-    {MixUp::micrometre, "micrometre", "belongs if it is in micrometres"},
-    {MixUp::metre, "metre", "belongs if it is in metres"},
-    {MixUp::radius, "radius", "belongs if it is the radius"},
-    {MixUp::diameter, "diameter", "belongs if it is the diameter"},
-    {MixUp::sign, "sign", "belongs with the other sign"},
+    {MixUp::outlier, "outlier", to_translate("does not belong to the other parts")},
+    {MixUp::swapped, "swapped", to_translate("belongs to")},
+    {MixUp::inch, "inch", to_translate("belongs if it is in inches")},
+    {MixUp::inch_twice, "inch-twice", to_translate("belongs if it was taken for inches")},
+    {MixUp::micrometre, "micrometre", to_translate("belongs if it is in micrometres")},
+    {MixUp::metre, "metre", to_translate("belongs if it is in metres")},
+    {MixUp::radius, "radius", to_translate("belongs if it is the radius")},
+    {MixUp::diameter, "diameter", to_translate("belongs if it is the diameter")},
+    {MixUp::sign, "sign", to_translate("belongs with the other sign")},
     {MixUp::deviation, "deviation",
-     "belongs if it is the deviation from the nominal size"},
+     to_translate("belongs if it is the deviation from the nominal size")},
     {MixUp::deviation_sign, "deviation-sign",
-     "belongs if it is the deviation from the nominal size with the other sign"}};
+     to_translate(
+         "belongs if it is the deviation from the nominal size with the other sign")}};
 
 const Meaning& meaning(MixUp kind) {
   return *std::ranges::find(kMeanings, kind, &Meaning::kind);
@@ -72,8 +72,8 @@ ordered_json left_out_row(const Request& q, std::size_t row, MixUp kind,
                    {"kind", m.name}};
   if (!with.empty()) out["with"] = with;
   out["sentence"] =
-      fmt::format("part {}, {}: {} {}{}", r.part, of, mm_text(r.value_mm), m.sentence,
-                  with.empty() ? "" : fmt::format(" {}, and vice versa", with));
+      say("part {}, {}: {} {}{}", r.part, of, mm_text(r.value_mm), tr(m.sentence),
+          with.empty() ? "" : say(" {}, and vice versa", with));
   return out;
 }
 
@@ -149,18 +149,17 @@ ordered_json not_identified(const Learned& l) {
   ordered_json out = ordered_json::array();
   if (t.drift_in_wear)
     out.push_back(
-        "drift and wear run alike: wear has the drift in it; pauses, or more edges, "
-        "would "
-        "tell them apart");
+        tr("drift and wear run alike: wear has the drift in it; pauses, or more edges, "
+           "would tell them apart"));
   else if (!t.drift)
-    out.push_back("drift: all parts have one time");
-  if (!t.wear) out.push_back("wear: it takes the column edge or parts_on_edge");
+    out.push_back(tr("drift: all parts have one time"));
+  if (!t.wear) out.push_back(tr("wear: it takes the column edge or parts_on_edge"));
   if (t.edges_ignored)
-    out.push_back("edges have too few parts each to be told apart and count as one");
+    out.push_back(tr("edges have too few parts each to be told apart and count as one"));
   else if (l.made.edges.size() > 1 && !t.edges)
-    out.push_back("how edges scatter: there are too few of them");
+    out.push_back(tr("how edges scatter: there are too few of them"));
   if (!l.made.timed)
-    out.push_back("drift counts from part to part, for there are no times");
+    out.push_back(tr("drift counts from part to part, for there are no times"));
   return out;
 }
 
@@ -216,21 +215,22 @@ void warn(const Characteristic& of, const Learned& l, ordered_json& warnings) {
   constexpr double kUnlikely = 0.01;
   if (l.all)
     warnings.push_back(
-        fmt::format("{}: every value {}; none counts", of.id, meaning(*l.all).sentence));
+        say("{}: every value {}; none counts", of.id, tr(meaning(*l.all).sentence)));
   else if (!l.trend)
     warnings.push_back(
-        fmt::format("{}: {} values are too few: it takes five of one edge, and two more "
-                    "for each other edge",
-                    of.id, l.kept.size()));
+        say("{}: {} values are too few: it takes five of one edge, and two more for each "
+            "other edge",
+            of.id, l.kept.size()));
   else if (!(l.trend->s_mm > 0))
-    warnings.push_back(of.id + ": the values do not scatter, so that no index is told");
+    warnings.push_back(
+        say("{}: the values do not scatter, so that no index is told", of.id));
   if (!l.trend) return;
   const auto n = learning::normality(l.trend->standardised);
   if (n && n->p < kUnlikely)
     warnings.push_back(
-        fmt::format("{}: the scatter is not normal (p {:.2g}); indices and intervals "
-                    "presume that it is",
-                    of.id, n->p));
+        say("{}: the scatter is not normal (p {:.2g}); indices and intervals presume "
+            "that it is",
+            of.id, n->p));
 }
 
 ordered_json answered(const Request& q, const Catalogue& catalogue) {

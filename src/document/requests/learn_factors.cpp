@@ -1,12 +1,12 @@
 #include "learn_factors.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
 
+#include "base/say.hpp"
 #include "document/catalogue/catalogue_readers.hpp"
+#include "document/json/utf8.hpp"
 #include "planning/budget/tolerance_allocation.hpp"
 #include "planning/clamping/made_surfaces.hpp"
 #include "turnwright/base/dual.hpp"
@@ -91,7 +91,7 @@ ordered_json described(const Factor& f) {
     out["posterior"] = {
         {"value", e.value}, {"u", e.u}, {"lower", e.lower}, {"upper", e.upper}};
   else
-    out["not_identified"] = fmt::format("stays at its prior; it takes {}", f.takes);
+    out["not_identified"] = say("stays at its prior; it takes {}", tr(f.takes));
   return out;
 }
 
@@ -129,7 +129,7 @@ std::vector<Factor> of_errors(const Plan& p, double confidence) {
   }
   const auto all = learning::posterior(prior, means, confidence);
   constexpr const char* kTakes =
-      "two diameters of one tool, at places that yield differently";
+      to_translate("two diameters of one tool, at places that yield differently");
   return {{"passive_force", "-", 1, force, exponential(all[0]), kTakes},
           {"compliance", "-", 1, compliance, exponential(all[1]), kTakes}};
 }
@@ -172,9 +172,9 @@ std::vector<Factor> of_slopes(const Plan& p, double confidence) {
   std::vector<Evidence> slopes;
   for (const Size& s : one_of_each_tool(p)) add_slopes(p, s, slopes);
   const auto all = learning::posterior(prior, slopes, confidence);
-  return {{"drift", "mm/h", 0, drift, all[0], "parts over more hours"},
+  return {{"drift", "mm/h", 0, drift, all[0], to_translate("parts over more hours")},
           {"wear", "-", 1, wear, all[1],
-           "the column edge, and edges used for more of their life"}};
+           to_translate("the column edge, and edges used for more of their life")}};
 }
 
 double budget_u(const json& machine) {
@@ -195,7 +195,7 @@ std::vector<Factor> of_scatter(const Plan& p, double relative_u, double confiden
   return {{"repeatability", "um", prior, prior * relative_u,
            learning::posterior(learning::scatter_prior(prior, relative_u), squares,
                                degrees, confidence),
-           "more values of a size"}};
+           to_translate("more values of a size")}};
 }
 
 // The member of the budget's re-chucking by which the setup holds the part.
@@ -250,7 +250,7 @@ Rechucked of_run_outs(const Request& q, const Plan& p, const std::vector<Learned
                            learning::posterior(
                                learning::scatter_prior(prior, relative_u), squares,
                                2 * static_cast<double>(series->size()), confidence),
-                           "more parts"});
+                           to_translate("more parts")});
   }
   return out;
 }
@@ -260,7 +260,7 @@ class Documents {
  public:
   Documents(const Request& q, const Plan& p, const Catalogue& catalogue,
             std::size_t parts)
-      : source_(fmt::format("learned from {} parts of {}", parts, p.part.drawing.name)),
+      : source_(say("learned from {} parts of {}", parts, p.part.drawing.name)),
         material_(
             document(q, "material", catalogue.material_documents, p.part.material.id)),
         machine_(document(q, "machine", catalogue.machine_documents, p.part.machine.id)) {
@@ -278,12 +278,12 @@ class Documents {
              {"land_MPa", by.value * t.land_MPa},
              {"uncertainty_pct", t.uncertainty_pct},
              {"total_uncertainty_pct", pct}};
-    tell(group, fmt::format("F_D times {:.3f}", by.value));
+    tell(group, say("F_D times {:.3f}", by.value));
     if (!material_.contains("feed_passive")) return;
     json& passive = material_["feed_passive"];
     passive["kp11_MPa"] = by.value * passive["kp11_MPa"].get<double>();
     passive["uncertainty_pct"] = pct;
-    tell(passive, fmt::format("kp1.1 times {:.3f}", by.value));
+    tell(passive, say("kp1.1 times {:.3f}", by.value));
   }
 
   void put_compliance(const Estimate& by) {
@@ -296,7 +296,7 @@ class Documents {
         value = by.value * value.get<double>();
     }
     group["uncertainty_pct"] = std::min(100.0, 100 * by.u / by.value);
-    tell(group, fmt::format("compliances times {:.3f}", by.value));
+    tell(group, say("compliances times {:.3f}", by.value));
   }
 
   // Wear omega times as fast is a life 1/omega as long.
@@ -306,7 +306,7 @@ class Documents {
     const double n = group["n"];
     group["C"] = group["C"].get<double>() * std::pow(by.value, -n);
     group["uncertainty_pct"] = std::min(100.0, 100 * n * by.u / by.value);
-    tell(group, fmt::format("edges wear {:.3f} times as fast as before", by.value));
+    tell(group, say("edges wear {:.3f} times as fast as before", by.value));
   }
 
   void put_budget(const std::string& key, double um) { budget_[key] = um; }
@@ -333,7 +333,7 @@ class Documents {
     const std::string before = group.value("source", "");
     group["source"] = source_;
     group["note"] =
-        (what + (before.empty() ? "" : "; before: " + before)).substr(0, 1900);
+        shortened(what + (before.empty() ? "" : say("; before: {}", before)), 1900);
   }
 
   void write_budget(const catalogue::ShopBudget& b) {
@@ -360,7 +360,7 @@ class Documents {
       group["rechucking_um"][key] = um;
       names += (names.empty() ? "" : ", ") + key;
     }
-    tell(group, "learned: " + names);
+    tell(group, say("learned: {}", names));
   }
 
   std::string source_;
@@ -377,10 +377,10 @@ void write(const Plan& p, const std::vector<Factor>& factors, const Rechucked& r
     const std::string name = f.name;
     if (name == "passive_force" || name == "compliance") {
       if (e.value > kFar || e.value < 1 / kFar)
-        warnings.push_back(fmt::format(
-            "{} is {:.2g} times what the documents say: effects are those of small "
-            "changes, so learn again with the new documents",
-            name, e.value));
+        warnings.push_back(
+            say("{} is {:.2g} times what the documents say: effects are those of small "
+                "changes, so learn again with the new documents",
+                name, e.value));
       if (name == "compliance")
         documents.put_compliance(e);
       else
@@ -390,7 +390,7 @@ void write(const Plan& p, const std::vector<Factor>& factors, const Rechucked& r
         documents.put_wear(e);
       else
         warnings.emplace_back(
-            "wear is not written: the sizes do not move as a worn edge moves them");
+            tr("wear is not written: the sizes do not move as a worn edge moves them"));
     } else if (name == "drift") {
       const double um = units::um_from_mm(std::hypot(e.value, e.u));
       documents.put_budget("drift_um",
@@ -417,8 +417,8 @@ Updated updated(const Request& q, const std::vector<Learned>& all,
       p.tools.push_back(s.effect->tool);
   if (p.sizes.empty()) {
     out.warnings.emplace_back(
-        "no factor is updated: none of the values is a diameter that the part's plan "
-        "finishes");
+        tr("no factor is updated: none of the values is a diameter that the part's plan "
+           "finishes"));
     return out;
   }
   std::size_t parts = 0;

@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "base/say.hpp"
 #include "document/json/csv.hpp"
 #include "document/json/fields.hpp"
 #include "document/json/read_below.hpp"
@@ -39,7 +40,8 @@ Characteristic read_characteristic(Reader r) {
   c.limits.lower_mm = r.optional_number("lower_mm", kSize);
   const double upper = c.limits.upper_mm, lower = c.limits.lower_mm.value_or(0);
   if (lower >= upper)
-    r.problem_at("upper_mm", "more than the lower limit, " + mm_text(lower), "order");
+    r.problem_at("upper_mm", say("more than the lower limit, {}", mm_text(lower)),
+                 "order");
   c.limits.target_mm =
       r.number_or("target_mm", within(lower, std::max(lower, upper), "mm"),
                   c.limits.lower_mm ? (lower + upper) / 2 : 0);
@@ -93,12 +95,12 @@ void read_characteristics(Reader& r, Request& q) {
     if (std::ranges::find(q.characteristics, c.id, &Characteristic::id) !=
             q.characteristics.end() &&
         !c.id.empty())
-      item.problem_at("id", "each characteristic once", "duplicate");
+      item.problem_at("id", tr("each characteristic once"), "duplicate");
     q.characteristics.push_back(std::move(c));
   }
   if (!r.has("characteristics") && !r.has("part") && !r.has("qif"))
     r.problem_at("characteristics",
-                 "a list of characteristics, or a part whose tolerances they are",
+                 tr("a list of characteristics, or a part whose tolerances they are"),
                  "missing");
 }
 
@@ -109,11 +111,11 @@ void add_row(Reader r, const std::string* id, const std::vector<std::string>& kn
   Row row{
       .part = read_name(r, "part"), .edge = read_name(r, "edge"), .pointer = r.pointer()};
   if (row.part.empty() && !r.has("part") && !r.broken())
-    r.problem_at("part", "the part's number or name", "missing");
+    r.problem_at("part", tr("the part's number or name"), "missing");
   const std::string of =
       id ? *id
-         : checked_reference(r.at("characteristic", "the id of a characteristic"), known,
-                             "a characteristic");
+         : checked_reference(r.at("characteristic", tr("the id of a characteristic")),
+                             known, tr("a characteristic"));
   row.value_mm = r.number(id ? *id : "value_mm", kSize);
   row.time_s = r.optional_number("time_s", within(0, 1e10, "s"));
   row.age = r.optional_number("parts_on_edge", within(0, 1e6));
@@ -154,9 +156,9 @@ void read_table(const Reader& csv, const std::vector<std::string>& known, Reques
       columns.push_back({.name = name, .required = false});
     }
   if (!tall && measured.empty() && !header.empty()) {
-    csv.problem("a first line without them",
-                "columns characteristic and value_mm, or columns named by " +
-                    expected_reference("", known, "characteristics"),
+    csv.problem(tr("a first line without them"),
+                say("columns characteristic and value_mm, or columns named by {}",
+                    expected_reference("", known, tr("characteristics"))),
                 "missing");
     return;
   }
@@ -178,11 +180,11 @@ std::map<std::string, std::string> read_names(Reader& qif, const Request& q) {
   for (const auto& entry : qif.optional_items("names", 0, kCharacteristics)) {
     auto item = entry.as_object();
     const auto name = item.text("name");
-    const auto id = checked_reference(item.at("id", "the id of a characteristic"), known,
-                                      "a characteristic");
+    const auto id = checked_reference(item.at("id", tr("the id of a characteristic")),
+                                      known, tr("a characteristic"));
     item.finish();
     if (!item.broken() && !names.emplace(name, id).second)
-      item.problem_at("name", "each name once", "duplicate");
+      item.problem_at("name", tr("each name once"), "duplicate");
   }
   return names;
 }
@@ -217,16 +219,18 @@ struct InCommon {
 
 void warn_of(const std::string& name, const InCommon& c, Request& q) {
   if (!c.characteristic) {
-    q.warnings.push_back(name +
-                         ": neither the request nor the file has limits of it; its " +
-                         std::to_string(c.n) + " values do not count");
+    q.warnings.push_back(
+        say("{}: neither the request nor the file has limits of it; its {} values do not "
+            "count",
+            name, c.n));
     return;
   }
   auto& of = q.characteristics[*c.characteristic];
   if (c.devices.size() == 1) of.device = *c.devices.begin();
   if (c.devices.size() > 1)
-    q.warnings.push_back(of.id + ": measured by " + std::to_string(c.devices.size()) +
-                         " devices, whose differences count as scatter");
+    q.warnings.push_back(
+        say("{}: measured by {} devices, whose differences count as scatter", of.id,
+            c.devices.size()));
 }
 
 void add_rows(const QifResults& results, const std::map<std::string, InCommon>& common,
@@ -271,10 +275,10 @@ void read_qif_results(Reader qif, Request& q, std::set<std::string>& machines) {
   add_rows(results, common, q);
   q.warnings.insert(q.warnings.end(), results.not_read.begin(), results.not_read.end());
   if (timed)
-    q.warnings.push_back("QIF: times are those of measuring; drift counts by them");
+    q.warnings.push_back(tr("QIF: times are those of measuring; drift counts by them"));
   if (q.rows.empty() && qif.problems().list.empty())
-    qif.problem("no such values", "measured lengths of characteristics that have limits",
-                "missing");
+    qif.problem(tr("no such values"),
+                tr("measured lengths of characteristics that have limits"), "missing");
 }
 
 void read_rows(Reader& r, Request& q) {
@@ -282,7 +286,8 @@ void read_rows(Reader& r, Request& q) {
   for (const auto& c : q.characteristics) known.push_back(c.id);
   std::set<std::string> machines;
   if (r.has("csv") + r.has("rows") + r.has("qif") > 1)
-    r.problem_at(r.has("csv") ? "csv" : "qif", "one of rows, csv and qif", "conflict");
+    r.problem_at(r.has("csv") ? "csv" : "qif", tr("one of rows, csv and qif"),
+                 "conflict");
   else if (r.has("qif"))
     read_qif_results(r.at("qif"), q, machines);
   else if (r.has("csv"))
@@ -291,12 +296,12 @@ void read_rows(Reader& r, Request& q) {
     for (const Reader& item : r.items("rows", 1, kRows))
       add_row(item, nullptr, known, q, machines);
   if (q.rows.size() > kRows)
-    r.problem_at("csv", std::to_string(kRows) + " values at most", "range");
+    r.problem_at("csv", say("{} values at most", kRows), "range");
   if (machines.size() > 1)
     r.problem_at(r.has("csv")   ? "csv"
                  : r.has("qif") ? "qif"
                                 : "rows",
-                 "parts of one machine; those of another are a request of their own",
+                 tr("parts of one machine; those of another are a request of their own"),
                  "conflict");
 }
 
@@ -314,6 +319,7 @@ double number_of(const std::string& name) {
 
 // All rows of a characteristic have a time or none, and so with edges.
 void check_series(const Request& q, std::size_t characteristic, Problems& problems) {
+  const auto& id = q.characteristics[characteristic].id;
   const Row* first = nullptr;
   std::set<std::string> made;
   for (const Row& row : q.rows) {
@@ -321,18 +327,17 @@ void check_series(const Request& q, std::size_t characteristic, Problems& proble
     if (!first) first = &row;
     const auto want = [&](bool has, bool wanted, const char* key) {
       if (has != wanted)
-        problems.add({row.pointer + '/' + key, wanted ? "nothing" : "a value",
-                      std::string(wanted ? "a value, as" : "none, as") +
-                          " the first row of " + q.characteristics[characteristic].id +
-                          " has",
+        problems.add({row.pointer + '/' + key, wanted ? tr("nothing") : tr("a value"),
+                      wanted ? say("a value, as the first row of {} has", id)
+                             : say("none, as the first row of {} has", id),
                       wanted ? "missing" : "conflict"});
     };
     want(row.time_s.has_value(), first->time_s.has_value(), "time_s");
     want(!row.edge.empty(), !first->edge.empty(), "edge");
     want(row.age.has_value(), first->age.has_value(), "parts_on_edge");
     if (!made.insert(row.part).second)
-      problems.add({row.pointer, "part \"" + row.part + "\" twice",
-                    "one value of each characteristic of a part", "duplicate"});
+      problems.add({row.pointer, say("part \"{}\" twice", row.part),
+                    tr("one value of each characteristic of a part"), "duplicate"});
   }
 }
 
@@ -345,11 +350,11 @@ void check_edges(const Request& q, std::size_t characteristic, Problems& problem
     left.insert(before.edge);
     if (left.contains(row.edge))
       problems.add({row.pointer + "/edge", '"' + row.edge + '"',
-                    "an edge that was not changed before", "order"});
+                    tr("an edge that was not changed before"), "order"});
   }
   if (made.edges.size() > kEdges)
-    problems.add({"", std::to_string(made.edges.size()) + " edges",
-                  std::to_string(kEdges) + " at most", "range"});
+    problems.add(
+        {"", say("{} edges", made.edges.size()), say("{} at most", kEdges), "range"});
 }
 
 // When each row was made: hours, else the number of its part.
@@ -409,7 +414,7 @@ Request read(const json& document, const Catalogue& catalogue) {
   q.outlier_p = r.number_or("outlier_p", within(0, 0.5), q.outlier_p);
   q.update = r.boolean_or("update", false);
   if (q.update && !r.has("part"))
-    r.problem_at("update", "a part, whose plan the parts were made by", "conflict");
+    r.problem_at("update", tr("a part, whose plan the parts were made by"), "conflict");
   read_characteristics(r, q);
   const auto before = problems.list.size();
   read_part(r, catalogue, q);

@@ -13,6 +13,7 @@
 #include "document/response/wav_file.hpp"
 #include "stability_request.hpp"
 #include "turnwright/base/cancelled.hpp"
+#include "turnwright/base/language.hpp"
 #include "turnwright/chatter/sound.hpp"
 #include "turnwright/document/stability.hpp"
 
@@ -34,7 +35,7 @@ void read_sound_range(Reader& r, ListenRequest& q) {
   q.options.from_Hz = r.number_or("from_Hz", band, q.options.from_Hz);
   q.options.to_Hz = r.optional_number("to_Hz", band);
   if (q.options.to_Hz && *q.options.to_Hz <= q.options.from_Hz)
-    r.problem_at("to_Hz", "a frequency above from_Hz", "range");
+    r.problem_at("to_Hz", tr("a frequency above from_Hz"), "range");
   auto found = r.find("machine_rpm");
   if (!found) return;
   Reader machine = found->as_object();
@@ -42,7 +43,7 @@ void read_sound_range(Reader& r, ListenRequest& q) {
   q.machine =
       chatter::SpeedRange{machine.number("from", speed), machine.number("to", speed)};
   if (q.machine->from_rpm > q.machine->to_rpm)
-    machine.problem_at("to", "a speed not below from", "range");
+    machine.problem_at("to", tr("a speed not below from"), "range");
   machine.finish();
 }
 
@@ -60,14 +61,14 @@ ListenRequest read_listen_request(const json& request, const Catalogue& catalogu
   Reader r = Reader(request, problems).as_object();
   read_format(r, "turnwright-listen/1");
   if (!r.broken()) {
-    const Reader wav = r.at("wav", "the bytes of a .wav file in base64");
+    const Reader wav = r.at("wav", tr("the bytes of a .wav file in base64"));
     if (!wav.broken()) {
-      const std::string bytes = read_base64(wav, "sound", kLargestSound);
+      const std::string bytes = read_base64(wav, to_translate("sound"), kLargestSound);
       if (!bytes.empty()) q.wav = read_wav(wav, bytes);
     }
     q.channel = static_cast<std::size_t>(r.integer_or("channel", 1, 2, 1)) - 1;
     if (!q.wav.channels.empty() && q.channel >= q.wav.channels.size())
-      r.problem_at("channel", "1, as the sound has one channel", "range");
+      r.problem_at("channel", tr("1, as the sound has one channel"), "range");
     q.options.n_rpm = r.number("n_rpm", within(1, 1e6, "1/min"));
     q.options.teeth = static_cast<int>(r.integer_or("teeth", 1, 100, 1));
     read_sound_range(r, q);

@@ -1,5 +1,6 @@
 #include "mode_reader.hpp"
 
+#include "turnwright/base/language.hpp"
 #include "turnwright/base/units.hpp"
 
 namespace turnwright::document {
@@ -18,9 +19,9 @@ double read_stiffness(Reader& r, double wn_rad_s) {
   const auto mass = r.optional_number("mass_kg", kModeMass);
   const auto stiffness = r.optional_number("stiffness_N_mm", within(1e-6, 1e12, "N/mm"));
   if (mass && stiffness)
-    r.problem_at("mass_kg", "either mass_kg or stiffness_N_mm", "exclusive");
+    r.problem_at("mass_kg", tr("either mass_kg or stiffness_N_mm"), "exclusive");
   else if (!mass && !stiffness)
-    r.problem_at("stiffness_N_mm", "stiffness_N_mm or mass_kg", "missing");
+    r.problem_at("stiffness_N_mm", tr("stiffness_N_mm or mass_kg"), "missing");
   return mass ? stiffness_N_mm(*mass, wn_rad_s) : stiffness.value_or(1);
 }
 

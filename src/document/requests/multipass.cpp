@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "document/json/fields.hpp"
+#include "turnwright/base/language.hpp"
 #include "turnwright/multipass/problem.hpp"
 #include "turnwright/multipass/single_pass.hpp"
 
@@ -40,8 +41,8 @@ const std::vector<Field>& fields() {
       {"D_mm", &Problem::D_mm, kLength},
       {"L_mm", &Problem::L_mm, kLength},
       {"dt_mm", &Problem::dt_mm, kLength},
-      {"k0", &Problem::k0, within(0, kLargest, "per min")},
-      {"kt", &Problem::kt, within(0, kLargest, "per edge")},
+      {"k0", &Problem::k0, within(0, kLargest, to_translate("per min"))},
+      {"kt", &Problem::kt, within(0, kLargest, to_translate("per edge"))},
       {"h1", &Problem::h1, within(0, kLargest, "min/mm")},
       {"h2", &Problem::h2, within(0, kLargest, "min")},
       {"tc", &Problem::tc, within(0, kLargest, "min")},
@@ -89,7 +90,7 @@ multipass::Problem read_problem(Reader& r) {
   if (r.has("T")) m.T = read_pair(r, "T", "min");
   m.VrU = r.optional_number("VrU", above_up_to(0, kLargest, "m/min"));
   m.n_max = static_cast<int>(r.integer_or("n_max", 1, kPasses, m.n_max));
-  if (m.k0 + m.kt <= 0) r.problem("k0 or kt above 0", "range");
+  if (m.k0 + m.kt <= 0) r.problem(tr("k0 or kt above 0"), "range");
   return m;
 }
 
@@ -113,12 +114,12 @@ multipass::SinglePass read_single_pass(Reader r) {
     multipass::PowerLimit l;
     l.name = item.text("name", 64);
     if (!l.name.empty() && !names.insert(l.name).second)
-      item.problem_at("name", "each name once, none of V_min, V_max, f_min, f_max",
+      item.problem_at("name", tr("each name once, none of V_min, V_max, f_min, f_max"),
                       "duplicate");
     l.law = read_law(item);
     l.upper = !item.has("at_least");
     if (item.has("at_most") && !l.upper)
-      item.problem_at("at_least", "either at_most or at_least", "conflict");
+      item.problem_at("at_least", tr("either at_most or at_least"), "conflict");
     l.limit = item.number(l.upper ? "at_most" : "at_least", above_up_to(0, 1e30));
     item.finish();
     m.limits.push_back(std::move(l));
@@ -160,7 +161,7 @@ json certificate(double lower_bound, double gap, long nodes) {
            {"gap", gap},
            {"nodes", nodes}};
   if (!(gap <= multipass::kGap))
-    out["reason"] = "search stopped at its largest number of nodes";
+    out["reason"] = tr("search stopped at its largest number of nodes");
   return out;
 }
 

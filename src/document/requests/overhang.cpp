@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/say.hpp"
 #include "document/json/fields.hpp"
 #include "document/json/read_below.hpp"
 #include "frequency_response.hpp"
@@ -86,7 +87,7 @@ struct OverhangRequest {
 double read_pivot(Reader& r) {
   const auto pivot = r.optional_number("pivot_mm", kPivot);
   if (pivot && std::abs(*pivot) < 1)
-    r.problem_at("pivot_mm", "at least 1 mm before or behind the face", "range");
+    r.problem_at("pivot_mm", tr("at least 1 mm before or behind the face"), "range");
   return pivot.value_or(kRigid);
 }
 
@@ -107,13 +108,13 @@ Spindle read_spindle_axis(Reader r, bool turning, OverhangRequest& q) {
     out.measured = read_frequency_response(*response, AxisKey::none);
   }
   if (r.has("modes") == r.has("frf"))
-    r.problem_at("modes", "either modes or frf", r.has("frf") ? "exclusive" : "missing");
+    r.problem_at("modes", tr("either modes or frf"),
+                 r.has("frf") ? "exclusive" : "missing");
   if (!tilts)
     q.assumed.push_back({{"pointer", r.pointer() + "/pivot_mm"},
                          {"value", "none"},
-                         {"why",
-                          "the face of the spindle does not tilt, so that long tools "
-                          "are too stiff"}});
+                         {"why", tr("the face of the spindle does not tilt, so that long "
+                                    "tools are too stiff")}});
   r.finish();
   return out;
 }
@@ -123,7 +124,7 @@ void read_spindle_axes(Reader& r, OverhangRequest& q) {
     auto axis = read_spindle_axis(item, q.turning, q);
     const bool twice = std::ranges::any_of(
         q.spindle, [&](const Spindle& s) { return s.axis == axis.axis; });
-    if (twice) Reader(item).problem_at("axis", "an axis once", "duplicate");
+    if (twice) Reader(item).problem_at("axis", tr("an axis once"), "duplicate");
     q.spindle.push_back(std::move(axis));
   }
 }
@@ -136,7 +137,7 @@ BeamSegment read_segment(Reader r, bool length) {
   s.diameter_mm = r.number("diameter_mm", size);
   s.bore_mm = r.number_or("bore_mm", within(0, 1e4, "mm"), 0);
   if (s.bore_mm >= s.diameter_mm)
-    r.problem_at("bore_mm", "a bore less than the diameter", "range");
+    r.problem_at("bore_mm", tr("a bore less than the diameter"), "range");
   s.E_MPa = r.number("E_MPa", within(1e3, 2e6, "MPa"));
   s.nu = r.number_or("poisson", within(0, 0.49), 0.3);
   s.density_kg_m3 = r.number("density_kg_m3", within(100, 3e4, "kg/m3"));
@@ -158,7 +159,7 @@ void read_beams(Reader& r, OverhangRequest& q) {
   for (const Reader& item : r.items("overhangs_mm", 1, kOverhangs)) {
     q.overhangs_mm.push_back(item.as_number(above_up_to(0, 1e4, "mm")));
     if (q.overhangs_mm.back() <= rest)
-      item.problem("more than the " + mm_text(rest) + " of the tool's other segments",
+      item.problem(say("more than the {} of the tool's other segments", mm_text(rest)),
                    "range");
   }
 }
@@ -166,7 +167,8 @@ void read_beams(Reader& r, OverhangRequest& q) {
 void read_lines(Reader& r, OverhangRequest& q) {
   q.from_Hz = r.number("from_Hz", kBand);
   q.to_Hz = r.number("to_Hz", kBand);
-  if (q.to_Hz <= q.from_Hz) r.problem_at("to_Hz", "a frequency above from_Hz", "range");
+  if (q.to_Hz <= q.from_Hz)
+    r.problem_at("to_Hz", tr("a frequency above from_Hz"), "range");
   q.lines = r.integer_or("lines", 50, 2000, kUsualLines);
   if (const auto modes = r.optional_integer("modes", 1, kMostModes))
     q.modes = static_cast<int>(*modes);
@@ -196,7 +198,7 @@ void read_cut(Reader& r, const json& request, const Catalogue& catalogue,
   for (const char* key :
        {"modes", "frf", "method", "uncertainty", "depths", "speed_variation"})
     if (cut.has(key))
-      cut.problem_at(key, "no such key in the cut of an overhang", "exclusive");
+      cut.problem_at(key, tr("no such key in the cut of an overhang"), "exclusive");
   if (problems.list.size() > 0) return;
   read_below(cut, problems, [&] {
     const Mode any{.axis = Axis::x, .wn_rad_s = 1000, .zeta = 0.03, .k_N_mm = 1e4};
@@ -204,10 +206,8 @@ void read_cut(Reader& r, const json& request, const Catalogue& catalogue,
         with_modes(document, {{Axis::x, any}}, q.turning), catalogue);
     if (asked.speeds_rpm.size() * std::max<std::size_t>(1, q.overhangs_mm.size()) >
         kMostSpeeds)
-      cut.problem_at(
-          "speeds_rpm",
-          "at most " + std::to_string(kMostSpeeds) + " speeds over all overhangs",
-          "range");
+      cut.problem_at("speeds_rpm",
+                     say("at most {} speeds over all overhangs", kMostSpeeds), "range");
   });
 }
 
@@ -356,8 +356,8 @@ ordered_json with_overhang(const OverhangRequest& q, const json& cut, double ove
   if (std::ranges::any_of(out["tip"],
                           [](const auto& tip) { return tip.at("modes").empty(); })) {
     out["why"] =
-        "no modes of positive stiffness inside the band, or up to twice its end, explain "
-        "nine tenths of the response; ask for a band that holds its peaks";
+        tr("no modes of positive stiffness inside the band, or up to twice its end, "
+           "explain nine tenths of the response; ask for a band that holds its peaks");
     return out;
   }
   try {

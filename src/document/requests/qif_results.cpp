@@ -12,6 +12,7 @@
 #include <set>
 #include <string_view>
 
+#include "base/say.hpp"
 #include "document/json/text_lines.hpp"
 #include "document/json/utf8.hpp"
 
@@ -177,8 +178,8 @@ class QifFile {
     const auto parsed = document.load_buffer(text_.data(), text_.size(),
                                              pugi::parse_default, pugi::encoding_utf8);
     if (!parsed)
-      return file_.problems().add(
-          {line(parsed.offset), parsed.description(), "XML (1.0), QIF 3.0", "format"});
+      return file_.problems().add({line(parsed.offset), parsed.description(),
+                                   tr("XML (1.0), QIF 3.0"), "format"});
     root_ = document.document_element();
     if (!is_qif()) return;
     index();
@@ -195,8 +196,8 @@ class QifFile {
         colon == name.npos ? "xmlns" : "xmlns:" + std::string(name.substr(0, colon));
     const std::string space = root_.attribute(declaration.c_str()).value();
     if (name_of(root_) == "QIFDocument" && space == kNamespace) return true;
-    problem(root_, fmt::format("{} of \"{}\"", cut(root_.name()), cut(space)),
-            fmt::format("QIFDocument of QIF 3.0, namespace {}", kNamespace));
+    problem(root_, say("{} of \"{}\"", cut(root_.name()), cut(space)),
+            say("QIFDocument of QIF 3.0, namespace {}", kNamespace));
     return false;
   }
 
@@ -223,7 +224,7 @@ class QifFile {
       if (x && *x > 0)
         unit.factor = *x;
       else
-        problem(factor, text_of(factor), "a number > 0, metres of the unit");
+        problem(factor, text_of(factor), tr("a number > 0, metres of the unit"));
     }
     if (const auto offset = child(conversion, "Offset"))
       unit.offset = decimal_of(offset.child_value()).value_or(0);
@@ -242,7 +243,7 @@ class QifFile {
         descend(results, {"MeasuredCharacteristics", "CharacteristicMeasurements"});
     for (const auto& m : measured.children()) {
       if (out_.values.size() >= kValues)
-        return problem(m, "more values", fmt::format("at most {}", kValues));
+        return problem(m, tr("more values"), say("at most {}", kValues));
       if (m.type() == pugi::node_element) read_measurement(m, own, when);
     }
   }
@@ -254,12 +255,12 @@ class QifFile {
     if (kind.ends_with(kEnding)) kind.remove_suffix(kEnding.size());
     const bool size = among(kSizes, kind), form = among(kForms, kind);
     if (!size && !form)
-      return skip(fmt::format("{} is no length that is learned from", cut(kind)));
+      return skip(say("{} is no length that is learned from", cut(kind)));
     const auto status = text_of(descend(m, {"Status", "CharacteristicStatusEnum"}));
     if (among(kNoValues, status))
-      return skip(fmt::format("values of status {} do not count", status));
+      return skip(say("values of status {} do not count", status));
     const auto value = child(m, "Value");
-    if (!value) return skip(fmt::format("{} without a single value", kind));
+    if (!value) return skip(say("{} without a single value", kind));
     QifValue v;
     v.pointer = line(offset_of(m));
     const auto mm = mm_of(value);
@@ -268,8 +269,8 @@ class QifFile {
     const auto item_id = text_of(child(m, "CharacteristicItemId"));
     const auto item = node_of(items_, item_id);
     if (!item)
-      return problem(m, fmt::format("characteristic item \"{}\"", cut(item_id)),
-                     "an item of the file's Characteristics");
+      return problem(m, say("characteristic item \"{}\"", cut(item_id)),
+                     tr("an item of the file's Characteristics"));
     v.characteristic = unique_name(item, item_id);
     if (const auto n = ++measured_[item_id]; n > 1)
       v.characteristic += fmt::format(" #{}", n);
@@ -293,7 +294,7 @@ class QifFile {
     auto name = text_of(child(item, "Name"));
     if (name.empty())
       name = text_of(descend(item, {"CharacteristicDesignator", "Designator"}));
-    return name.empty() ? "item " + id : cut(name, 200);
+    return name.empty() ? fmt::format("item {}", id) : cut(name, 200);
   }
 
   void set_component(QifValue& v, const pugi::xml_node& component) {
@@ -304,7 +305,7 @@ class QifFile {
       const std::string value = a.attribute("value").value();
       const auto number = [&](std::optional<double>& member) {
         member = decimal_of(value);
-        if (!member) problem(a, value, fmt::format("a number as {}", key));
+        if (!member) problem(a, value, say("a number as {}", key));
       };
       if (key == "edge") v.edge = cut(value);
       if (key == "machine") v.machine = cut(value);
@@ -317,7 +318,8 @@ class QifFile {
     const auto text = stamp ? text_of(stamp) : when;
     if (text.empty()) return;
     v.time_s = DateTime(text).seconds();
-    if (!v.time_s) problem(stamp, cut(text), "a date and time, as 2026-03-02T06:14:05Z");
+    if (!v.time_s)
+      problem(stamp, cut(text), tr("a date and time, as 2026-03-02T06:14:05Z"));
   }
 
   std::optional<std::string> device(const pugi::xml_node& m,
@@ -327,7 +329,7 @@ class QifFile {
     const auto found = node_of(devices_, id);
     if (!found) return std::nullopt;
     const auto name = text_of(child(found, "Name"));
-    return name.empty() ? "device " + cut(id) : cut(name);
+    return name.empty() ? fmt::format("device {}", cut(id)) : cut(name);
   }
 
   void add_limits(const std::string& name, const pugi::xml_node& item, bool form) {
@@ -370,15 +372,15 @@ class QifFile {
     const std::string unit = value.attribute("linearUnit").value();
     const auto named = units_.find(unit);
     if (!unit.empty() && named == units_.end()) {
-      problem(value, fmt::format("unit \"{}\"", cut(unit)),
-              "a linear unit that FileUnits defines");
+      problem(value, say("unit \"{}\"", cut(unit)),
+              tr("a linear unit that FileUnits defines"));
       return std::nullopt;
     }
     const auto& u = unit.empty() ? primary_ : named->second;
     const auto x = decimal_of(value.child_value());
     const double mm = x ? (*x + u.offset) * u.factor * kMmOfMetre : 0;
     if (x && std::abs(mm) <= kLargest_mm) return mm;
-    problem(value, cut(text_of(value)), "a length of at most 1 km");
+    problem(value, cut(text_of(value)), tr("a length of at most 1 km"));
     return std::nullopt;
   }
 
@@ -423,7 +425,7 @@ QifResults read_qif(const std::vector<Reader>& files) {
   std::set<std::string> asked;
   for (const auto& file : files) QifFile(file, components, asked, out, counts).read();
   for (const auto& [sentence, n] : counts)
-    out.not_read.push_back(fmt::format("QIF: {} ({} left)", sentence, n));
+    out.not_read.push_back(say("QIF: {} ({} left)", sentence, n));
   return out;
 }
 

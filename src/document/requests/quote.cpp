@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "base/say.hpp"
 #include "document/json/fields.hpp"
 #include "document/json/read_below.hpp"
 #include "routing.hpp"
@@ -29,7 +30,7 @@ std::vector<double> read_batches(Reader& r) {
   std::set<double> once;
   for (const auto& item : r.items("batches", 1, kBatches)) {
     const auto batch = static_cast<double>(item.as_integer(1, kLargestBatch));
-    if (!once.insert(batch).second) item.problem("each batch once", "duplicate");
+    if (!once.insert(batch).second) item.problem(tr("each batch once"), "duplicate");
     all.push_back(batch);
   }
   return all;
@@ -49,7 +50,7 @@ planning::StockPrice read_stock(Reader group) {
   s.per_kg = group.optional_number("price_per_kg", within(0, kMostMoney));
   s.per_bar = group.optional_number("price_per_bar", within(0, kMostMoney));
   if (s.per_kg.has_value() == s.per_bar.has_value())
-    group.problem("either price_per_kg or price_per_bar", "conflict");
+    group.problem(tr("either price_per_kg or price_per_bar"), "conflict");
   if (s.per_bar) s.bar_length_mm = group.number("bar_length_mm", length);
   s.kerf_mm = group.number_or("kerf_mm", within(0, 100, "mm"), 0);
   if (s.per_bar) s.remnant_mm = group.number_or("remnant_mm", within(0, 1e5, "mm"), 0);
@@ -71,11 +72,13 @@ void read_part(const Reader& item, const Catalogue& catalogue, bool priced,
     return;
   const auto& usable = q.parts.back().usable;
   if (usable.front().document.part.objective != planning::Objective::cost)
-    item.problem_at("objective", "\"cost\": a quote is of the cheapest plan", "conflict");
+    item.problem_at("objective", tr("\"cost\": a quote is of the cheapest plan"),
+                    "conflict");
   else if (priced && std::ranges::any_of(usable, [](const auto& c) {
              return c.document.part.stock_price > 0;
            }))
-    item.problem_at("stock", "no price of its own beside the quote's stock", "conflict");
+    item.problem_at("stock", tr("no price of its own beside the quote's stock"),
+                    "conflict");
 }
 
 // Nothing is converted; what names no currency counts as in that of the others.
@@ -88,7 +91,7 @@ void check_currency(Reader& r, QuoteRequest& q) {
   if (all.size() > 1)
     r.problem_at(
         "currency",
-        fmt::format("one currency of all rates and prices, not {}", fmt::join(all, ", ")),
+        say("one currency of all rates and prices, not {}", fmt::join(all, ", ")),
         "conflict");
 }
 
@@ -108,18 +111,16 @@ Considered considered(const QuoteRequest& q, const Candidates::Usable& c,
             plan.conflicts.empty() ? plan.certificate.reason
                                    : plan.conflicts.front().sentence};
   if (q.charges.scrap && !(planning::all_conform(plan) > 0))
-    return {c.name, {}, "no share of the parts is sure to conform"};
+    return {c.name, {}, tr("no share of the parts is sure to conform")};
   if (q.stock.per_bar && !part.drawing.stock.outline.empty())
-    return {c.name, {}, "a casting or forging is not cut from a bar"};
+    return {c.name, {}, tr("a casting or forging is not cut from a bar")};
   if (q.stock.per_bar && planning::pieces_of_bar(part, q.stock) < 1)
-    return {
-        c.name,
-        {},
-        fmt::format(
-            "a bar of {:g} mm less its remnant of {:g} mm is too short for a piece of "
-            "{:g} mm and its kerf of {:g} mm",
-            q.stock.bar_length_mm, q.stock.remnant_mm, part.drawing.stock.length_mm,
-            q.stock.kerf_mm)};
+    return {c.name,
+            {},
+            say("a bar of {:g} mm less its remnant of {:g} mm is too short for a piece "
+                "of {:g} mm and its kerf of {:g} mm",
+                q.stock.bar_length_mm, q.stock.remnant_mm, part.drawing.stock.length_mm,
+                q.stock.kerf_mm)};
   return {c.name, Offer{&part, &plan, planning::piece_price(part, q.stock)}};
 }
 

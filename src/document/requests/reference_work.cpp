@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "turnwright/base/language.hpp"
 #include "turnwright/chatter/reference_methods.hpp"
 
 namespace turnwright::document::stability_request {
@@ -33,17 +34,17 @@ double operations(const ChartRequest& q, double n_rpm) {
 void limit_reference_work(Reader& r, const chatter::ChartRequest& q) {
   if (q.method == Method::fundamental_matrix) return;
   if (q.method != Method::simulation && unknowns(q) > kMostUnknowns)
-    return r.problem_at(q.method == Method::tfea ? "elements" : "intervals",
-                        "at most 600 unknowns: 2 modes (elements + 1), or 2 (modes + "
-                        "intervals)",
-                        "range");
+    return r.problem_at(
+        q.method == Method::tfea ? "elements" : "intervals",
+        tr("at most 600 unknowns: 2 modes (elements + 1), or 2 (modes + intervals)"),
+        "range");
   double all = 0;
   for (const double n_rpm : q.speeds_rpm) all += kDepths * operations(q, n_rpm);
   for (const auto& point : q.points) all += operations(q, point.n_rpm);
   if (!(all <= kMostOperations))
     r.problem_at("method",
-                 "at most 4e11 operations (about a minute) over all speeds and points; "
-                 "fewer or higher speeds, or coarser steps, need fewer",
+                 tr("at most 4e11 operations (about a minute) over all speeds and "
+                    "points; fewer or higher speeds, or coarser steps, need fewer"),
                  "range");
 }
 

@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "base/say.hpp"
+
 namespace turnwright::document {
 namespace {
 
@@ -34,14 +36,15 @@ ordered_json routing_rows(const std::string& part, const std::string& made_by,
   for (const auto& setup : offer.plan->setups) {
     const auto total = setup.breakdown.total();
     const auto& share = setup.breakdown.setup_share;
+    const auto clamping = planning::name(setup.clamping);
+    const bool held_by_left = setup.hold == part::End::left;
     rows.push_back(
         {{"part", part},
          {"made_by", made_by},
          {"operation", number += kStep},
          {"machine", machine.id},
-         {"description", fmt::format("turn, {} end held, {}",
-                                     setup.hold == part::End::left ? "left" : "right",
-                                     planning::name(setup.clamping))},
+         {"description", held_by_left ? say("turn, left end held, {}", clamping)
+                                      : say("turn, right end held, {}", clamping)},
          {"setup_min", machine.setup_min},
          {"run_min", total.time_min - share.time_min}});
   }

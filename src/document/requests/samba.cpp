@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/say.hpp"
 #include "document/catalogue/calibrated_machine.hpp"
 #include "document/json/fields.hpp"
 #include "turnwright/base/units.hpp"
@@ -43,7 +44,7 @@ void read_pre_moves(Reader r, SambaStrategy& s) {
       const auto read = move.as_numbers(within(-1, 1), 2, 2);
       std::ranges::copy(read, signs.begin());
       for (const double sign : read)
-        if (sign > -1 && sign < 1) move.problem("two signs, -1 or 1", "range");
+        if (sign > -1 && sign < 1) move.problem(tr("two signs, -1 or 1"), "range");
       s.indexations[i].pre_moves.push_back(signs);
     }
   }
@@ -57,13 +58,14 @@ void check_scale_bar(Reader& r, const SambaStrategy& s) {
   const Vec3 &a = s.balls_mm[0], &b = s.balls_mm[1];
   const double apart = std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
   if (!(apart > 0))
-    r.problem_at("balls_mm", "the first two, the bar's, apart from each other",
+    r.problem_at("balls_mm", tr("the first two, the bar's, apart from each other"),
                  "conflict");
   else if (s.scale_bar_mm > 0 && !(std::abs(s.scale_bar_mm - apart) <= kBarOff * apart))
-    r.problem_at("scale_bar_mm",
-                 "the distance of its balls, the first two of balls_mm, " +
-                     number_text(apart) + " mm, within 2 %",
-                 "conflict");
+    r.problem_at(
+        "scale_bar_mm",
+        say("the distance of its balls, the first two of balls_mm, {} mm, within 2 %",
+            number_text(apart)),
+        "conflict");
 }
 
 SambaStrategy read_strategy(Reader r) {
@@ -80,7 +82,7 @@ SambaStrategy read_strategy(Reader r) {
     s.balls_mm.push_back(vec3(ball, kBallPlace));
   const auto seen = r.items("balls_seen", 1, kIndexations);
   if (!seen.empty() && !s.indexations.empty() && seen.size() != s.indexations.size())
-    r.problem_at("balls_seen", "one list for each of indexations_deg", "count");
+    r.problem_at("balls_seen", tr("one list for each of indexations_deg"), "count");
   const auto balls = static_cast<long>(s.balls_mm.size());
   for (std::size_t i = 0; balls > 0 && i < std::min(seen.size(), s.indexations.size());
        ++i)
@@ -94,7 +96,7 @@ SambaStrategy read_strategy(Reader r) {
   if (touched || r.has("facet_normal")) {
     s.facet_normal = read_vec3(r, "facet_normal", within(-1, 1));
     if (r.has("facet_normal") && r.json()["facet_normal"] == json{0, 0, 0})
-      r.problem_at("facet_normal", "a direction that is not zero", "range");
+      r.problem_at("facet_normal", tr("a direction that is not zero"), "range");
   }
   s.scale_bar_mm = r.number("scale_bar_mm", above_up_to(0, 1e5, "mm"));
   if (s.balls_mm.size() > 1) check_scale_bar(r, s);
@@ -108,11 +110,11 @@ SambaStrategy read_strategy(Reader r) {
 }
 
 std::vector<std::string> read_parameters(Reader& r) {
-  const Reader value = r.at("parameters", "\"all\" or a list of names");
+  const Reader value = r.at("parameters", tr("\"all\" or a list of names"));
   if (value.broken()) return {};
   if (value.is_text()) {
     if (value.json() == "all") return samba_parameters();
-    value.problem("\"all\" or a list of names", "choice");
+    value.problem(tr("\"all\" or a list of names"), "choice");
     return {};
   }
   std::vector<std::string> out;
@@ -121,13 +123,12 @@ std::vector<std::string> read_parameters(Reader& r) {
     if (name.empty()) continue;
     if (!is_samba_parameter(name)) {
       const std::string near = nearest(name, samba_parameters());
-      item.problem(
-          "an error parameter of the machine such as EC0Y, EX0C, EXX1, EYX2, EXYb, or "
-          "facet" +
-              (near.empty() ? "" : " (did you mean \"" + near + "\"?)"),
-          "reference");
+      const auto expected =
+          tr("an error parameter of the machine such as EC0Y, EX0C, EXX1, EYX2, EXYb, or "
+             "facet");
+      item.problem(near.empty() ? expected : did_you_mean(expected, near), "reference");
     } else if (std::ranges::find(out, name) != out.end()) {
-      item.problem("each parameter once", "duplicate");
+      item.problem(tr("each parameter once"), "duplicate");
     }
     out.push_back(name);
   }
@@ -148,7 +149,7 @@ void read_readings(Reader& r, CalibrationRequest& q) {
     probings += q.strategy.styli_mm.size() * (at.balls.size() + at.pre_moves.size());
   const auto items = list.as_items(0, 1000000);
   if (list.is_array() && items.size() != probings) {
-    list.problem(std::to_string(probings) + " readings, one for each probing", "count");
+    list.problem(say("{} readings, one for each probing", probings), "count");
     return;
   }
   auto item = items.begin();
@@ -187,10 +188,10 @@ CalibrationRequest read_calibration_request(const json& document) {
   if (q.machine && q.machine->errors.chain.chain != chain)
     r.problem_at(
         "machine",
-        "a machine of the chain " + chain + ", not " + q.machine->errors.chain.chain,
+        say("a machine of the chain {}, not {}", chain, q.machine->errors.chain.chain),
         "conflict");
   if (q.machine && !q.given)
-    r.problem_at("machine", "readings_mm as well: without them nothing is found",
+    r.problem_at("machine", tr("readings_mm as well: without them nothing is found"),
                  "conflict");
   r.finish();
   problems.throw_if_any();
@@ -234,7 +235,7 @@ json with_readings(const CalibrationRequest& q) {
   std::vector<double> left = q.readings_mm;
   const auto own = samba_readings(q.strategy, m.errors.chain);
   for (std::size_t i = 0; i < left.size(); ++i) left[i] -= own[i];
-  return with_errors(std::move(m), calibrated(fitted(left)), "probed balls (SAMBA)");
+  return with_errors(std::move(m), calibrated(fitted(left)), tr("probed balls (SAMBA)"));
 }
 
 }  // namespace
@@ -251,11 +252,10 @@ json samba(const json& request) {
   }
   const bool uncertain = q.noise_mm || (fit && fit->dof > 0);
   if (q.machine && !uncertain)
-    throw InputError("samba",
-                     {{"/noise_mm", "nothing",
-                       "the standard deviation of a reading: these leave no degree of "
-                       "freedom that would tell it",
-                       "missing"}});
+    throw InputError("samba", {{"/noise_mm", "nothing",
+                                tr("the standard deviation of a reading: these leave no "
+                                   "degree of freedom that would tell it"),
+                                "missing"}});
   json suggested = json::array();
   for (const Remedy& remedy : remedies(q.strategy, of))
     suggested.push_back(

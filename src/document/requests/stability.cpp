@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/say.hpp"
 #include "stability_request.hpp"
 #include "turnwright/base/cancelled.hpp"
 #include "turnwright/base/errors.hpp"
@@ -70,12 +71,13 @@ ordered_json described(const Request& q, const ChartPoint& point) {
 
 ordered_json described(const Undecided& undecided, const std::string& pointer) {
   const auto& [i, at, why, harder_rpm, stable_to_mm] = undecided;
-  ordered_json out{{"pointer", pointer},
-                   {"n_rpm", at.n_rpm},
-                   {"ap_mm", at.ap_mm},
-                   {"why", !why.empty() ? why
-                                        : "not tried, as " + number_text(harder_rpm) +
-                                              " 1/min would take too long"}};
+  ordered_json out{
+      {"pointer", pointer},
+      {"n_rpm", at.n_rpm},
+      {"ap_mm", at.ap_mm},
+      {"why", !why.empty() ? why
+                           : say("not tried, as {} 1/min would take too long",
+                                 number_text(harder_rpm))}};
   if (stable_to_mm) out["stable_to_mm"] = *stable_to_mm;
   return out;
 }
@@ -92,9 +94,9 @@ void add_undecided(const Request& q, const StabilityChart& chart, ordered_json& 
   if (chart.speeds.empty() && chart.points.empty() &&
       std::ranges::none_of(all, in_part)) {
     const ordered_json& first = all.front();
-    throw ModelRangeError("stability: " + first.at("pointer").get<std::string>() +
-                          ": at " + number_text(first.at("n_rpm")) +
-                          " 1/min: " + first.at("why").get<std::string>());
+    throw ModelRangeError(
+        say("stability: {}: at {} 1/min: {}", first.at("pointer").get<std::string>(),
+            number_text(first.at("n_rpm")), first.at("why").get<std::string>()));
   }
   out["undecided"] = std::move(all);
 }

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/say.hpp"
 #include "document/catalogue/entries.hpp"
 #include "document/json/fields.hpp"
 #include "mode_reader.hpp"
@@ -43,7 +44,7 @@ Engagement read_engagement(Reader& r) {
   if (direction == Direction::slot) {
     const auto given = r.optional_number("radial_immersion", bounds);
     if (given && *given < 1)
-      r.problem_at("radial_immersion", "1 or none, for a slot", "range");
+      r.problem_at("radial_immersion", tr("1 or none, for a slot"), "range");
     return {0, units::kPi};
   }
   const double immersion = r.number("radial_immersion", bounds);
@@ -56,7 +57,7 @@ using Named = std::optional<catalogue::MillingCutter>;
 Named read_named(Reader& r, const Catalogue& catalogue) {
   if (!r.has("cutter")) return std::nullopt;
   for (const char* key : {"teeth", "diameter_mm"})
-    if (r.has(key)) r.problem_at(key, "no such key beside cutter", "exclusive");
+    if (r.has(key)) r.problem_at(key, tr("no such key beside cutter"), "exclusive");
   const auto before = r.problems().list.size();
   auto cutter = cutter_of(catalogue, r.at("cutter"));
   if (r.problems().list.size() > before) return std::nullopt;
@@ -68,7 +69,7 @@ Named read_named(Reader& r, const Catalogue& catalogue) {
 void read_material(Reader& r, const Catalogue& catalogue, const Named& cutter,
                    Request& q) {
   for (const char* key : {"Kt_MPa", "Kn_MPa"})
-    if (r.has(key)) r.problem_at(key, "no such key beside material", "exclusive");
+    if (r.has(key)) r.problem_at(key, tr("no such key beside material"), "exclusive");
   const auto before = r.problems().list.size();
   const auto material = material_of(catalogue, r.at("material"));
   const double fz = r.number("feed_mm", kFeed);
@@ -76,7 +77,7 @@ void read_material(Reader& r, const Catalogue& catalogue, const Named& cutter,
   if (!cutter)
     q.assumed.push_back({{"pointer", "/cutter/geometry/gamma_deg"},
                          {"value", material.gamma0_deg},
-                         {"why", "the rake that kc1.1 belongs to"}});
+                         {"why", tr("the rake that kc1.1 belongs to")}});
   const double rake = cutter ? cutter->gamma_deg : material.gamma0_deg;
   const double immersion =
       (std::cos(q.system.entry_rad) - std::cos(q.system.exit_rad)) / 2;
@@ -107,7 +108,7 @@ void read_measured(Reader& r, AxisKey axis, std::size_t most, Request& q) {
     auto measured = read_frequency_response(item, axis);
     if (!measured) continue;
     if (has_axis(q, measured->axis))
-      Reader(item).problem_at("axis", "an axis without modes", "conflict");
+      Reader(item).problem_at("axis", tr("an axis without modes"), "conflict");
     add_modes(*measured, q);
     q.measured.push_back(std::move(*measured));
   }
@@ -147,7 +148,7 @@ void read_milling(Reader& r, const Catalogue& catalogue, const Named& named, Req
   if (named)
     add_modes(*named, q);
   else if (!r.has("cutter"))
-    r.problem_at("modes", "modes, frf or cutter", "missing");
+    r.problem_at("modes", tr("modes, frf or cutter"), "missing");
 }
 
 void read_power_law(Reader& r, Request& q) {
@@ -178,14 +179,14 @@ void read_turning(Reader& r, Request& q) {
       q.assumed.push_back(
           {{"pointer", "/modes/" + std::to_string(i) + "/damping_ratio"},
            {"value", kSlenderDamping},
-           {"why", "slender parts in a chuck and boring bars in a holder"}});
+           {"why", tr("slender parts in a chuck and boring bars in a holder")}});
     q.system.modes.push_back(read_mode(mode, Axis::x, kSlenderDamping));
     ++i;
   }
   if (r.has("modes") && r.has("frf"))
-    r.problem_at("frf", "either modes or frf", "exclusive");
+    r.problem_at("frf", tr("either modes or frf"), "exclusive");
   else if (!r.has("modes") && !r.has("frf"))
-    r.problem_at("modes", "modes or frf", "missing");
+    r.problem_at("modes", tr("modes or frf"), "missing");
   else
     read_measured(r, AxisKey::none, 1, q);
 }
@@ -204,14 +205,14 @@ void read_edges(Reader& r, Cutter& cutter) {
     }
     constexpr double kClosed = 1e-6;
     if (cutter.pitch_rad.size() == teeth && std::abs(sum - 360) > kClosed)
-      r.problem_at("pitch_deg", "angles that add up to 360 deg", "range");
+      r.problem_at("pitch_deg", tr("angles that add up to 360 deg"), "range");
     for (double& pitch : cutter.pitch_rad) pitch *= 360 / sum;
   }
   if (r.has("runout_mm"))
     cutter.offset_mm = r.numbers("runout_mm", within(-10, 10, "mm"), teeth, teeth);
   cutter.feed_mm = r.number_or("feed_mm", kFeed, 0);
   if (!cutter.offset_mm.empty() && !r.has("feed_mm"))
-    r.problem_at("feed_mm", "a feed per tooth, for runout_mm", "missing");
+    r.problem_at("feed_mm", tr("a feed per tooth, for runout_mm"), "missing");
 }
 
 /// Reads helix, unequal pitches, runout, feed per tooth and process damping into
@@ -236,7 +237,7 @@ void read_cutter(Reader& r, const Named& named, Request& q) {
   }
   if (((mill && r.has("helix_deg")) || damped) && !r.has("diameter_mm") &&
       !r.has("cutter"))
-    r.problem_at("diameter_mm", "a diameter, for helix_deg and process_damping",
+    r.problem_at("diameter_mm", tr("a diameter, for helix_deg and process_damping"),
                  "missing");
   q.cutter = std::move(cutter);
 }
@@ -252,21 +253,21 @@ void read_variations(Reader& r, Request& q) {
   for (const double rva : amplitudes)
     for (const double rvf : frequencies) q.variations.push_back({rva, rvf});
   for (const char* key : {"process_damping", "uncertainty", "method"})
-    if (r.has(key)) r.problem_at(key, "no such key with speed_variation", "exclusive");
+    if (r.has(key))
+      r.problem_at(key, tr("no such key with speed_variation"), "exclusive");
   if (q.variations.size() * q.speeds_rpm.size() > kVaried)
     r.problem_at("speed_variation",
-                 "at most " + std::to_string(kVaried) +
-                     " amplitudes times frequencies times speeds",
+                 say("at most {} amplitudes times frequencies times speeds", kVaried),
                  "range");
   for (const Mode& m : q.system.modes)
     if (m.zeta >= 0.7)
-      r.problem_at("speed_variation", "damping ratios below 0.7", "range");
+      r.problem_at("speed_variation", tr("damping ratios below 0.7"), "range");
 }
 
 SpeedRange read_range(Reader& r) {
   const SpeedRange range{r.number("from", kSpeed), r.number("to", kSpeed)};
   if (range.from_rpm > range.to_rpm)
-    r.problem_at("to", "a speed not below from", "range");
+    r.problem_at("to", tr("a speed not below from"), "range");
   return range;
 }
 
@@ -292,10 +293,9 @@ void read_depths(Reader& r, Request& q) {
   if (!r.has("depths")) return;
   const long count = r.integer("depths", 1, kCounted);
   if (q.method != Method::fundamental_matrix)
-    r.problem_at("depths", "no such key with this method", "exclusive");
+    r.problem_at("depths", tr("no such key with this method"), "exclusive");
   else if (static_cast<std::size_t>(count) * q.speeds_rpm.size() > kCuts)
-    r.problem_at("depths", "at most " + std::to_string(kCuts) + " depths over all speeds",
-                 "range");
+    r.problem_at("depths", say("at most {} depths over all speeds", kCuts), "range");
   for (long i = 1; i <= count && q.ap_max_mm; ++i)
     q.depths_mm.push_back(*q.ap_max_mm * static_cast<double>(i) /
                           static_cast<double>(count));
@@ -314,12 +314,11 @@ void read_uncertainty(Reader& r, Request& q) {
   bands.samples = static_cast<int>(u.integer("samples", 1, kDrawn));
   bands.seed = static_cast<std::uint64_t>(u.integer("seed", 0, 2147483647));
   if (static_cast<std::size_t>(bands.samples) * q.speeds_rpm.size() > kSearches)
-    u.problem_at("samples",
-                 "at most " + std::to_string(kSearches) + " samples over all speeds",
+    u.problem_at("samples", say("at most {} samples over all speeds", kSearches),
                  "range");
   u.finish();
   if (q.method != Method::fundamental_matrix)
-    r.problem_at("uncertainty", "no such key with this method", "exclusive");
+    r.problem_at("uncertainty", tr("no such key with this method"), "exclusive");
   q.bands = bands;
 }
 
@@ -332,25 +331,25 @@ void read_machine(Reader& r, Request& q) {
   range.finish();
   if (!q.speeds_rpm.empty() &&
       std::ranges::none_of(q.speeds_rpm, [&](double n) { return q.machine->holds(n); }))
-    r.problem_at("machine_rpm", "a range that holds one of speeds_rpm", "range");
+    r.problem_at("machine_rpm", tr("a range that holds one of speeds_rpm"), "range");
 }
 
 /// "stability_margin" and "speed_margin", which the best cut keeps.
 void read_margins(Reader& r, Request& q) {
   const auto share = [&](const char* key, const Bounds& bounds, double usual,
-                         const char* why) {
+                         const std::string& why) {
     if (!q.speeds_rpm.empty() && !r.has(key))
       q.assumed.push_back(
           {{"pointer", std::string("/") + key}, {"value", usual}, {"why", why}});
     return r.number_or(key, bounds, usual);
   };
   const Margins usual;
-  q.margins.depth = share("stability_margin", within(0, 10), usual.depth,
-                          "the best cut stays stable when it is deeper by this share");
-  q.margins.speed =
-      share("speed_margin", within(0, 0.2), usual.speed,
-            "and at all speeds slower or faster by this share, or with all natural "
-            "frequencies higher or lower by it");
+  q.margins.depth =
+      share("stability_margin", within(0, 10), usual.depth,
+            tr("the best cut stays stable when it is deeper by this share"));
+  q.margins.speed = share("speed_margin", within(0, 0.2), usual.speed,
+                          tr("and at all speeds slower or faster by this share, or with "
+                             "all natural frequencies higher or lower by it"));
 }
 
 /// What milling removes in a revolution per depth, if feed and diameter are known, and the
@@ -363,10 +362,10 @@ void read_spindle(Reader& r, const Named& named, Request& q) {
   const double diameter = q.cutter ? q.cutter->diameter_mm : 0;
   if (load.power_kW || load.torque_Nm) {
     if (!r.has("feed_mm"))
-      r.problem_at("feed_mm", "a feed per tooth, for the machine's power and torque",
+      r.problem_at("feed_mm", tr("a feed per tooth, for the machine's power and torque"),
                    "missing");
     if (!r.has("diameter_mm") && !named && !r.has("cutter"))
-      r.problem_at("diameter_mm", "a diameter, for the machine's power and torque",
+      r.problem_at("diameter_mm", tr("a diameter, for the machine's power and torque"),
                    "missing");
   }
   if (!(fz > 0 && diameter > 0)) return;
@@ -395,12 +394,11 @@ void read_method(Reader& r, Request& q) {
 
 void refuse_beside_shape(Reader& r, const Request& q) {
   const std::string with =
-      "no such key with helix_deg, pitch_deg, runout_mm or process_damping";
+      tr("no such key with helix_deg, pitch_deg, runout_mm or process_damping");
   if (q.method != Method::fundamental_matrix) r.problem_at("method", with, "exclusive");
   if (q.bands) r.problem_at("uncertainty", with, "exclusive");
   if (q.speeds_rpm.size() > kShapedSpeeds)
-    r.problem_at("speeds_rpm",
-                 "at most " + std::to_string(kShapedSpeeds) + " speeds of such a cutter",
+    r.problem_at("speeds_rpm", say("at most {} speeds of such a cutter", kShapedSpeeds),
                  "range");
 }
 
@@ -412,7 +410,7 @@ void refuse_without_speeds(Reader& r, const Request& q) {
   if (q.model == Model::turning) keys.push_back("speed_variation");
   for (const std::string_view key : keys)
     if (!r.broken() && r.has(key) && !r.has("speeds_rpm"))
-      r.problem_at(key, "no such key without speeds_rpm", "exclusive");
+      r.problem_at(key, tr("no such key without speeds_rpm"), "exclusive");
 }
 
 Request read_request(const json& request, const Catalogue& catalogue,
@@ -452,17 +450,17 @@ Request read_request(const json& request, const Catalogue& catalogue,
   }
   const auto few = [&](std::string_view key, std::size_t asked) {
     if (q.method != Method::fundamental_matrix && asked > kChecked)
-      r.problem_at(key, "at most " + std::to_string(kChecked) + " with this method",
-                   "range");
+      r.problem_at(key, say("at most {} with this method", kChecked), "range");
   };
   few("speeds_rpm", q.speeds_rpm.size());
   few("points", q.points.size());
   if (q.shaped()) refuse_beside_shape(r, q);
   if (problems.list.size() == problems_before) limit_reference_work(r, q);
   if (!r.broken() && !r.has("speeds_rpm") && !r.has("points"))
-    r.problem_at("speeds_rpm", "speeds_rpm or points", "missing");
+    r.problem_at("speeds_rpm", tr("speeds_rpm or points"), "missing");
   if (!r.broken() && r.has("speeds_rpm") && !r.has("ap_max_mm"))
-    r.problem_at("ap_max_mm", expected_number(kDepth) + " to search up to", "missing");
+    r.problem_at("ap_max_mm", say("{} to search up to", expected_number(kDepth)),
+                 "missing");
   refuse_without_speeds(r, q);
   if (known) r.finish();
   return q;

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/say.hpp"
 #include "document/json/csv.hpp"
 #include "document/json/fields.hpp"
 #include "turnwright/base/errors.hpp"
@@ -98,12 +99,12 @@ void check_rows(Reader& r, const Columns& columns) {
   const auto& t = time->second;
   for (const auto& [key, values] : columns)
     if (!values.empty() && !t.empty() && values.size() != t.size())
-      r.problem_at(key, "as many values as time_s has", "count");
+      r.problem_at(key, tr("as many values as time_s has"), "count");
   const auto falls =
       std::ranges::adjacent_find(t, [](double a, double b) { return a >= b; });
   if (falls != t.end())
-    r.problem("time_s " + number_text(*falls) + " before " + number_text(falls[1]),
-              "times that rise", "order");
+    r.problem(say("time_s {} before {}", number_text(*falls), number_text(falls[1])),
+              tr("times that rise"), "order");
 }
 
 Inputs inputs_of(Columns& c) {
@@ -166,9 +167,10 @@ std::optional<Batch> read_batch(Reader& shift, const Inputs& inputs) {
   const double last =
       batch.first_s + (static_cast<double>(batch.parts) - 1) * batch.cycle_s;
   if (batch.first_s < inputs.time_s.front())
-    r->problem_at("first_s", "not before the shift's first time_s", "conflict");
+    r->problem_at("first_s", tr("not before the shift's first time_s"), "conflict");
   if (last > inputs.time_s.back())
-    r->problem_at("parts", "a last part not after the shift's last time_s", "conflict");
+    r->problem_at("parts", tr("a last part not after the shift's last time_s"),
+                  "conflict");
   return batch;
 }
 
@@ -363,40 +365,40 @@ json shift_json(const ThermalRequest& q, const LagFit& fit) {
 }
 
 /// Warnings of rows outside the ranges of the first `trained` rows of the log.
-void warn_of_range(const char* what, std::span<const double> seen,
-                   std::span<const double> asked, const char* unit, const char* where,
-                   json& warnings) {
+void warn_of_range(const std::string& what, std::span<const double> seen,
+                   std::span<const double> asked, const char* unit,
+                   const std::string& where, json& warnings) {
   const auto [low, high] = std::ranges::minmax(seen);
   const auto beyond = std::ranges::count_if(
       asked, [l = low, h = high](double x) { return x < l || x > h; });
   if (beyond > 0)
-    warnings.push_back(std::string(where) + ": " + std::to_string(beyond) +
-                       " rows with " + what + " outside the fitted " + number_text(low) +
-                       " to " + number_text(high) + " " + unit);
+    warnings.push_back(say("{}: {} rows with {} outside the fitted {} to {} {}", where,
+                           beyond, what, number_text(low), number_text(high), unit));
 }
 
 json warnings_json(const ThermalRequest& q, const LagFit& fit) {
   json out = json::array();
   for (const Parameter& p : fit.parameters) {
     if (p.found == Found::at_lower || p.found == Found::at_upper)
-      out.push_back(p.name + ": at its " +
-                    (p.found == Found::at_lower ? "lower" : "upper") + " bound, " +
-                    number_text(p.value));
+      out.push_back(
+          p.found == Found::at_lower
+              ? say("{}: at its lower bound, {}", p.name, number_text(p.value))
+              : say("{}: at its upper bound, {}", p.name, number_text(p.value)));
     else if (p.found == Found::unknown)
-      out.push_back(p.name + ": nothing in the log depends on it");
+      out.push_back(say("{}: nothing in the log depends on it", p.name));
     else if (p.ill_determined)
-      out.push_back(p.name + ": ill-determined, standard uncertainty " +
-                    number_text(p.u) + " of " + number_text(p.value));
+      out.push_back(say("{}: ill-determined, standard uncertainty {} of {}", p.name,
+                        number_text(p.u), number_text(p.value)));
   }
   const Inputs& log = q.log.inputs;
-  const auto check = [&](const Inputs& in, std::size_t from, const char* where) {
-    warn_of_range("speeds", std::span(log.rpm).first(q.trained),
+  const auto check = [&](const Inputs& in, std::size_t from, const std::string& where) {
+    warn_of_range(tr("speeds"), std::span(log.rpm).first(q.trained),
                   std::span(in.rpm).subspan(from), "1/min", where, out);
-    warn_of_range("ambients", std::span(log.ambient_degC).first(q.trained),
+    warn_of_range(tr("ambients"), std::span(log.ambient_degC).first(q.trained),
                   std::span(in.ambient_degC).subspan(from), "degC", where, out);
   };
-  check(log, q.trained, "held out");
-  if (q.shift) check(q.shift->inputs, 0, "shift");
+  check(log, q.trained, tr("held out"));
+  if (q.shift) check(q.shift->inputs, 0, tr("shift"));
   return out;
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "turnwright/base/language.hpp"
+
 namespace turnwright::document {
 namespace {
 
@@ -16,13 +18,13 @@ std::array<double, 2> read_end(Reader& r, const char* key) {
   const auto values = r.numbers(key, within(-1e6, 1e6, "mm"), 2, 2);
   std::ranges::copy(values, at.begin());
   if (values.size() == 2 && !(at[0] >= 0))
-    r.problem_at(key, "[r, z] with a radius of 0 mm or more", "range");
+    r.problem_at(key, tr("[r, z] with a radius of 0 mm or more"), "range");
   return at;
 }
 
 double read_sign(Reader& group, const char* axis) {
   const double sign = group.number_or(axis, within(-1, 1), -1);
-  if (sign > -1 && sign < 1) group.problem_at(axis, "-1 or 1", "range");
+  if (sign > -1 && sign < 1) group.problem_at(axis, tr("-1 or 1"), "range");
   return sign;
 }
 
@@ -32,7 +34,7 @@ TurnedSurface read_surface(Reader r, const std::vector<TurnedSurface>& before) {
   const auto from = read_end(r, "from_mm"), to = read_end(r, "to_mm");
   s.generator = {from[0], from[1], to[0], to[1]};
   if (r.has("from_mm") && r.has("to_mm") && from == to)
-    r.problem_at("to_mm", "another place than from_mm", "conflict");
+    r.problem_at("to_mm", tr("another place than from_mm"), "conflict");
   if (auto approach = r.optional_object("approach")) {
     s.generator.approach_x = read_sign(*approach, "X");
     s.generator.approach_z = read_sign(*approach, "Z");
@@ -41,11 +43,12 @@ TurnedSurface read_surface(Reader r, const std::vector<TurnedSurface>& before) {
   const auto place = [&](const std::string& id) {
     return std::ranges::find(before, id, &TurnedSurface::id);
   };
-  if (place(s.id) != before.end()) r.problem_at("id", "an id no other has", "duplicate");
+  if (place(s.id) != before.end())
+    r.problem_at("id", tr("an id no other has"), "duplicate");
   if (r.has("datum")) {
     const auto datum = place(r.text("datum", 64));
     if (datum == before.end())
-      r.problem_at("datum", "the id of a surface before", "reference");
+      r.problem_at("datum", tr("the id of a surface before"), "reference");
     else
       s.datum = static_cast<std::size_t>(datum - before.begin());
   }
@@ -97,7 +100,7 @@ std::vector<TurnedSurface> read_turned(Reader& r, const std::string& chain) {
   const bool lathe = std::ranges::all_of(
       std::string("XZC"), [&](char c) { return chain.find(c) != std::string::npos; });
   if (!items.empty() && chain_fault(chain).empty() && !lathe)
-    r.problem_at("chain", "a chain with X, Z and C for what is turned", "conflict");
+    r.problem_at("chain", tr("a chain with X, Z and C for what is turned"), "conflict");
   return all;
 }
 

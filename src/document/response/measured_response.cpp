@@ -3,6 +3,8 @@
 #include <array>
 #include <utility>
 
+#include "base/say.hpp"
+
 namespace turnwright::document {
 namespace {
 
@@ -28,11 +30,12 @@ std::optional<WrittenUnit> agreed_unit(Reader& r, const std::optional<WrittenUni
                                        const std::optional<WrittenUnit>& stated,
                                        const std::string& where) {
   if (given && stated && given->unit != stated->unit) {
-    r.problem_at("unit", "none or " + shown(stated->text) + ", as " + where, "conflict");
+    r.problem_at("unit", say("none or {}, as {}", shown(stated->text), where),
+                 "conflict");
     return std::nullopt;
   }
   if (!given && !stated)
-    r.problem_at("unit", "a unit of motion per force here or " + where, "missing");
+    r.problem_at("unit", say("a unit of motion per force here or {}", where), "missing");
   return stated ? stated : given;
 }
 

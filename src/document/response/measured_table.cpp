@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "base/say.hpp"
 #include "document/json/csv.hpp"
 #include "document/json/pointer.hpp"
 #include "document/json/text_lines.hpp"
@@ -46,8 +47,8 @@ class TableRows {
       if (!key) continue;
       if (const auto* other = table_.find(*key)) {
         report(line_pointer(csv_, line.line),
-               "columns " + shown(other->name) + " and " + shown(line.cells[i]),
-               "one " + *key + ", named under columns", "duplicate");
+               say("columns {} and {}", shown(other->name), shown(line.cells[i])),
+               say("one {}, named under columns", *key), "duplicate");
         continue;
       }
       table_.columns.push_back({*key, line.cells[i], head.unit, {}});
@@ -56,8 +57,8 @@ class TableRows {
     for (const auto& [key, name] : names_) {
       if (std::ranges::count(line.cells, name) > 0) continue;
       const auto near = nearest(name, line.cells);
-      report(line_pointer(csv_, line.line), "no column " + shown(name),
-             near.empty() ? "one" : "perhaps " + shown(near), "missing");
+      report(line_pointer(csv_, line.line), say("no column {}", shown(name)),
+             near.empty() ? tr("one") : say("perhaps {}", shown(near)), "missing");
     }
   }
 
@@ -118,13 +119,13 @@ class TableRows {
     const auto x = csv_number(digits);
     const char* expected = nullptr;
     if (x && has_comma && mark_ == '.')
-      expected = "a decimal point, as in the numbers before";
+      expected = to_translate("a decimal point, as in the numbers before");
     else if (x && has_point && mark_ == ',')
-      expected = "a decimal comma, as in the numbers before";
+      expected = to_translate("a decimal comma, as in the numbers before");
     if (expected || !x || (has_comma && has_point) || !contains(form_.bounds, *x)) {
       report(child_pointer(line_pointer(csv_, line), name),
-             cell.empty() ? "nothing" : shown(cell),
-             expected ? expected : expected_number(form_.bounds),
+             cell.empty() ? tr("nothing") : shown(cell),
+             expected ? tr(expected) : expected_number(form_.bounds),
              x && !expected ? "range" : "type");
       return kNone;
     }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "turnwright/base/language.hpp"
 #include "turnwright/base/units.hpp"
 
 namespace turnwright::document {
@@ -193,7 +194,9 @@ std::optional<int> motion_derivative(const MeasuredUnit& unit) {
 }
 
 std::string quantity_of(int derivative) {
-  return derivative == 0 ? "receptance" : derivative == 1 ? "mobility" : "accelerance";
+  return derivative == 0   ? to_translate("receptance")
+         : derivative == 1 ? to_translate("mobility")
+                           : to_translate("accelerance");
 }
 
 }  // namespace turnwright::document

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <utility>
 
+#include "base/say.hpp"
 #include "document/json/text_lines.hpp"
 #include "universal_file.hpp"
 
@@ -44,8 +45,7 @@ bool is_drive_point(const UniversalFunction& f) {
 }
 
 std::string text_of(const UniversalFunction& f) {
-  return std::to_string(f.number) + " (" + text_of(f.response) + " by " +
-         text_of(f.reference) + ")";
+  return say("{} ({} by {})", f.number, text_of(f.response), text_of(f.reference));
 }
 
 using Functions = std::vector<const UniversalFunction*>;
@@ -78,13 +78,14 @@ const UniversalFunction* chosen(Reader& uff, const Reader& text, bool good,
   if (drive.size() == 1) return drive[0];
   const Functions& several = drive.empty() ? fitting : drive;
   if (responses.empty())
-    text.problem("no frequency response", "a dataset 58 of function type 4", "missing");
+    text.problem(tr("no frequency response"), tr("a dataset 58 of function type 4"),
+                 "missing");
   else if (fitting.empty())
-    uff.problem("none of the records asked for", "of the records " + list(responses),
-                "missing");
+    uff.problem(tr("none of the records asked for"),
+                say("of the records {}", list(responses)), "missing");
   else
-    uff.problem("the records " + list(several),
-                "one of them, chosen by record, response and reference", "count");
+    uff.problem(say("the records {}", list(several)),
+                tr("one of them, chosen by record, response and reference"), "count");
   return nullptr;
 }
 
@@ -137,9 +138,8 @@ std::optional<WrittenUnit> unit_of_types(const UniversalFunction& f) {
   const auto derivative = derivative_of_type(f.ordinate.type);
   if (!derivative || !is_force_type(f.denominator.type) || !f.units) return std::nullopt;
   constexpr const char* kTimes[] = {"", "/s", "/s2"};
-  return WrittenUnit{
-      std::string("length") + kTimes[*derivative] + "/force of dataset 164",
-      {*derivative, 1e3 * f.units->force / f.units->length}};
+  return WrittenUnit{say("length{}/force of dataset 164", kTimes[*derivative]),
+                     {*derivative, 1e3 * f.units->force / f.units->length}};
 }
 
 /// Whether what the labels say, each by itself, is what dataset 164 says.
@@ -162,20 +162,20 @@ std::optional<WrittenUnit> stated_unit(const Reader& text, const UniversalFuncti
   const auto derivative = derivative_of_type(f.ordinate.type);
   const auto wrong = [&](const std::string& got, const std::string& what) {
     text.problems().add({line_pointer(text, f.line + 8), shown(got),
-                         what + ", or \"unit\", which decides", "unit"});
+                         say("{}, or \"unit\", which decides", what), "unit"});
     return std::nullopt;
   };
   if (labels && derivative && *derivative != labels->unit.derivative)
-    return wrong(labels->text, quantity_of(*derivative) + ", as data type " +
-                                   std::to_string(f.ordinate.type) + " says");
+    return wrong(labels->text, say("{}, as data type {} says",
+                                   tr(quantity_of(*derivative)), f.ordinate.type));
   if (labels && types && std::abs(labels->unit.mm / types->unit.mm - 1) > kSame)
-    return wrong(labels->text, "units that agree with dataset 164");
+    return wrong(labels->text, tr("units that agree with dataset 164"));
   if (!labels && types && !labels_agree(f, *derivative))
     return wrong(f.ordinate.units + "/" + f.denominator.units,
-                 "units that can be read and agree with dataset 164");
+                 tr("units that can be read and agree with dataset 164"));
   if (!labels && !types && !f.ordinate.units.empty())
     return wrong(f.ordinate.units + "/" + f.denominator.units,
-                 "a unit of motion per force");
+                 tr("a unit of motion per force"));
   return labels ? labels : types;
 }
 
@@ -185,14 +185,14 @@ std::optional<WrittenUnit> unit_of(Reader& r, const Reader& text,
   const auto derivative = derivative_of_type(f.ordinate.type);
   if (given && derivative && *derivative != given->unit.derivative)
     r.problem_at("unit",
-                 "that of " + quantity_of(*derivative) + ", as data type " +
-                     std::to_string(f.ordinate.type) + " of the file says",
+                 say("that of {}, as data type {} of the file says",
+                     tr(quantity_of(*derivative)), f.ordinate.type),
                  "conflict");
   if (given) return given;
   const auto before = problems_of(r);
   const auto stated = stated_unit(text, f);
   if (problems_of(r) > before) return std::nullopt;
-  return agreed_unit(r, given, stated, "by the labels or dataset 164 of the file");
+  return agreed_unit(r, given, stated, tr("by the labels or dataset 164 of the file"));
 }
 
 /// Hz of one unit of the abscissa; another quantity is reported.
@@ -203,10 +203,10 @@ double hertz_of(const Reader& text, const UniversalFunction& f) {
   const bool by_type = axis.type == kFrequency,
              by_label = (axis.type == kUnknown || axis.type == kGeneral) && hertz;
   if (!(by_type && (hertz || axis.units.empty())) && !by_label)
-    text.problems().add({line_pointer(text, f.line + 7),
-                         "data type " + std::to_string(axis.type) + " and unit " +
-                             shown(axis.units) + " of the abscissa",
-                         "frequency, type 18, in Hz", "unit"});
+    text.problems().add(
+        {line_pointer(text, f.line + 7),
+         say("data type {} and unit {} of the abscissa", axis.type, shown(axis.units)),
+         tr("frequency, type 18, in Hz"), "unit"});
   return hertz.value_or(1);
 }
 
@@ -221,13 +221,13 @@ std::vector<MeasuredLine> lines_of(const Reader& text, const UniversalFunction& 
                       .pointer = line_pointer(text, f.lines[i])};
     if (!(line.frequency_Hz >= 0 && line.frequency_Hz <= 1e6))
       text.problems().add({line.pointer, number_text(line.frequency_Hz) + " Hz",
-                           "a number from 0 to 1000000 Hz", "range"});
+                           tr("a number from 0 to 1000000 Hz"), "range"});
     if (coherence) {
       line.coherence = coherence->y[i].real();
       if (!(*line.coherence >= 0 && *line.coherence <= 1))
         text.problems().add({line_pointer(text, coherence->lines[i]),
-                             "a coherence of " + number_text(*line.coherence),
-                             "a number from 0 to 1", "range"});
+                             say("a coherence of {}", number_text(*line.coherence)),
+                             tr("a number from 0 to 1"), "range"});
     }
     out.push_back(std::move(line));
   }
@@ -247,19 +247,18 @@ std::optional<MeasuredResponse> read_response_file(Reader& r) {
   const auto given = read_response_unit(r);
   const auto before = problems_of(r);
   Reader uff = r.object("uff");
-  const Reader text = uff.at("text", "the text of a universal file, or its lines");
+  const Reader text = uff.at("text", tr("the text of a universal file, or its lines"));
   const auto functions = read_universal_file(text);
   const bool good = problems_of(r) == before;
   const UniversalFunction* const f = chosen(uff, text, good, functions);
   uff.finish();
   if (!f) return std::nullopt;
   if (!f->complex)
-    text.problems().add({line_pointer(text, f->line + 6), "a real ordinate",
-                         "a complex one, of type 5 or 6", "type"});
+    text.problems().add({line_pointer(text, f->line + 6), tr("a real ordinate"),
+                         tr("a complex one, of type 5 or 6"), "type"});
   if (f->x.size() > kLines)
-    text.problems().add({line_pointer(text, f->line + 6),
-                         std::to_string(f->x.size()) + " lines",
-                         "at most " + std::to_string(kLines), "count"});
+    text.problems().add({line_pointer(text, f->line + 6), say("{} lines", f->x.size()),
+                         say("at most {}", kLines), "count"});
   MeasuredResponse out;
   out.key = "uff";
   const double hertz = hertz_of(text, *f);
@@ -271,9 +270,9 @@ std::optional<MeasuredResponse> read_response_file(Reader& r) {
   out.unit = unit->text;
   out.told["record"] = described(*f);
   if (!is_drive_point(*f))
-    out.doubts.push_back("the record, " + document::text_of(f->response) + " by " +
-                         document::text_of(f->reference) +
-                         ", is no drive point: a tool cuts where it yields itself");
+    out.doubts.push_back(
+        say("the record, {} by {}, is no drive point: a tool cuts where it yields itself",
+            document::text_of(f->response), document::text_of(f->reference)));
   return out;
 }
 

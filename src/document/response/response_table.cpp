@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/say.hpp"
 #include "document/json/csv.hpp"
 #include "document/json/pointer.hpp"
 #include "document/json/text_lines.hpp"
@@ -90,18 +91,18 @@ class ResponseTable {
                                                                     parts ? "imaginary"
                                                                           : "phase");
     if (!f || !a || !b) {
-      report(line_pointer(csv_, table_.header), "columns of " + found(),
-             "a frequency, and real and imaginary part, or magnitude and phase",
+      report(line_pointer(csv_, table_.header), say("columns of {}", found()),
+             tr("a frequency, and real and imaginary part, or magnitude and phase"),
              "missing");
       return std::nullopt;
     }
     const auto size = magnitude_unit(a->unit);
-    if (!parts) check_unit(a, size || a->unit.empty(), "motion per force, or dB");
+    if (!parts) check_unit(a, size || a->unit.empty(), tr("motion per force, or dB"));
     const auto unit = agreed_unit(r_, given, parts ? of_parts(*a, *b) : of(size),
-                                  "in the header of the column");
+                                  tr("in the header of the column"));
     const double hertz = hertz_of(*f), radian = parts ? 1 : radian_of(*b);
     check_unit(coherence, coherence && (coherence->unit.empty() || percent(*coherence)),
-               "none or %");
+               tr("none or %"));
     MeasuredResponse out;
     out.key = "csv";
     for (std::size_t i = 0; i < table_.lines.size(); ++i) {
@@ -110,8 +111,8 @@ class ResponseTable {
       check(*f, i, line.frequency_Hz, within(0, 1e6, "Hz"));
       if (!out.lines.empty() && line.frequency_Hz <= out.lines.back().frequency_Hz)
         report(child_pointer(line.pointer, f->name), number_text(line.frequency_Hz),
-               "more than " + number_text(out.lines.back().frequency_Hz) +
-                   " Hz of the line before",
+               say("more than {} Hz of the line before",
+                   number_text(out.lines.back().frequency_Hz)),
                "order");
       line.value =
           parts ? std::complex(a->values[i], b->values[i])
@@ -135,7 +136,7 @@ class ResponseTable {
   std::string found() const {
     std::string out;
     for (const Column& c : table_.columns) out += (out.empty() ? "" : ", ") + c.key;
-    return out.empty() ? "none of these" : out;
+    return out.empty() ? tr("none of these") : out;
   }
 
   static bool percent(const Column& c) { return c.unit == "%"; }
@@ -150,9 +151,9 @@ class ResponseTable {
     std::optional<WrittenUnit> out;
     for (const Column* c : {&a, &b}) {
       const auto unit = response_unit(c->unit);
-      check_unit(c, unit || c->unit.empty(), "motion per force");
+      check_unit(c, unit || c->unit.empty(), tr("motion per force"));
       if (unit && out && out->unit != *unit)
-        report(line_pointer(csv_, table_.header), c->unit, "one unit, " + out->text,
+        report(line_pointer(csv_, table_.header), c->unit, say("one unit, {}", out->text),
                "unit");
       if (unit) out = WrittenUnit{c->unit, *unit};
     }
@@ -162,18 +163,18 @@ class ResponseTable {
   void check_unit(const Column* c, bool good, const std::string& expected) {
     if (c && !good)
       report(child_pointer(line_pointer(csv_, table_.header), c->name), shown(c->unit),
-             "a unit of " + c->key + ": " + expected, "unit");
+             say("a unit of {}: {}", c->key, expected), "unit");
   }
 
   /// Hz of one unit.  Without one the header has no other words than those of a frequency.
   double hertz_of(const Column& f) {
     const auto stated = hertz_of_unit(f.unit);
-    const auto expected = "Hz, kHz, rad/s, rpm or cpm";
+    const auto expected = tr("Hz, kHz, rad/s, rpm or cpm");
     check_unit(&f, stated || f.unit.empty(), expected);
     for (const auto& word : words_of(f.unit.empty() ? f.name : ""))
       if (!is_of_frequency(word)) {
         report(child_pointer(line_pointer(csv_, table_.header), f.name), shown(word),
-               std::string("a frequency, or its unit: ") + expected, "unit");
+               say("a frequency, or its unit: {}", expected), "unit");
         break;
       }
     return stated.value_or(1);
@@ -191,11 +192,11 @@ class ResponseTable {
     const auto given = r_.optional_choice<double>(
         "phase_unit", {{"deg", units::rad_from_deg(1)}, {"rad", 1}});
     const auto stated = radian_of_unit(phase.unit);
-    check_unit(&phase, stated || phase.unit.empty(), "deg or rad");
+    check_unit(&phase, stated || phase.unit.empty(), tr("deg or rad"));
     if (given && stated && *given != *stated)
-      r_.problem_at("phase_unit", "none or that of the header", "conflict");
+      r_.problem_at("phase_unit", tr("none or that of the header"), "conflict");
     if (!given && phase.unit.empty())
-      r_.problem_at("phase_unit", "deg or rad, here or in the header of the phase",
+      r_.problem_at("phase_unit", tr("deg or rad, here or in the header of the phase"),
                     "missing");
     return given.value_or(stated.value_or(1));
   }
@@ -234,7 +235,7 @@ class ResponseTable {
 std::optional<MeasuredResponse> read_response_table(Reader& r) {
   const auto given = read_response_unit(r);
   const auto before = problems_of(r);
-  const Reader csv = r.at("csv", "the text of a table, or the list of its lines");
+  const Reader csv = r.at("csv", tr("the text of a table, or the list of its lines"));
   const MeasuredTable table =
       read_measured_table(csv, r.optional_object("columns"), form());
   if (table.lines.empty()) {  // which was reported

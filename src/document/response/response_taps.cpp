@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/say.hpp"
 #include "document/json/pointer.hpp"
 #include "document/json/text_lines.hpp"
 #include "measured_table.hpp"
@@ -40,11 +41,11 @@ struct Series {
 
 const std::array<Series, 3>& series() {
   static const std::array<Series, 3> kAll{
-      Series{"time", is_time, "a unit of time", {"s", "ms"}},
-      Series{"force", is_force, "a unit of force", {"N", "kN", "lbf"}},
+      Series{"time", is_time, to_translate("a unit of time"), {"s", "ms"}},
+      Series{"force", is_force, to_translate("a unit of force"), {"N", "kN", "lbf"}},
       Series{"motion",
              is_motion,
-             "a unit of length, speed or acceleration",
+             to_translate("a unit of length, speed or acceleration"),
              {"m/s2", "g", "mm/s2", "in/s2", "m/s", "mm/s", "um", "mm"}}};
   return kAll;
 }
@@ -74,10 +75,10 @@ std::optional<MeasuredUnit> unit_of(const Reader& csv, const MeasuredTable& tabl
   const auto unit = measured_unit(text);
   const std::string place = child_pointer(line_pointer(csv, table.header), c.name);
   if (!unit || !s.fits(*unit))
-    csv.problems().add({place, text.empty() ? "no unit" : shown(text),
-                        std::string(s.expected) + ", there or under units", "unit"});
+    csv.problems().add({place, text.empty() ? tr("no unit") : shown(text),
+                        say("{}, there or under units", tr(s.expected)), "unit"});
   else if (given && measured_unit(*given) != unit)
-    units->problem_at(s.key, "none or that of the header", "conflict");
+    units->problem_at(s.key, tr("none or that of the header"), "conflict");
   return unit && s.fits(*unit) ? unit : std::nullopt;
 }
 
@@ -124,8 +125,8 @@ void check_times(const Reader& csv, const MeasuredTable& table, const Column& ti
     if (step < 0 || std::abs(step - step_s) < 0.5 * step_s) continue;
     csv.problems().add(
         {child_pointer(line_pointer(csv, table.lines[i]), time.name),
-         rounded(t_s[i]) + " s, " + rounded(step, 1e8) + " after the line before",
-         "even steps of " + rounded(step_s, 1e8) + " s, or a step back to a new record",
+         say("{} s, {} after the line before", rounded(t_s[i]), rounded(step, 1e8)),
+         say("even steps of {} s, or a step back to a new record", rounded(step_s, 1e8)),
          "order"});
   }
 }
@@ -142,9 +143,8 @@ std::optional<Samples> samples(const Reader& csv, const MeasuredTable& table,
     if (columns[k])
       unit[k] = unit_of(csv, table, *columns[k], s, units).value_or(MeasuredUnit{});
     else
-      csv.problems().add({line_pointer(csv, table.header),
-                          std::string("no column of ") + s.key,
-                          "columns of time, force and motion", "missing"});
+      csv.problems().add({line_pointer(csv, table.header), say("no column of {}", s.key),
+                          tr("columns of time, force and motion"), "missing"});
   }
   if (units) units->finish();
   if (problems_of(csv) > before) return std::nullopt;
@@ -152,8 +152,8 @@ std::optional<Samples> samples(const Reader& csv, const MeasuredTable& table,
   for (double& t : t_s) t *= unit[0].scale;
   const double usual = usual_step(t_s);
   if (table.lines.size() < kFewest || !(usual > 0)) {
-    csv.problem(std::to_string(table.lines.size()) + " samples",
-                "at least " + std::to_string(kFewest) + ", in rising time", "count");
+    csv.problem(say("{} samples", table.lines.size()),
+                say("at least {}, in rising time", kFewest), "count");
     return std::nullopt;
   }
   check_times(csv, table, *columns[0], t_s, usual);
@@ -177,17 +177,17 @@ std::string fault_of(const Tap& tap) {
     case Tap::Fault::none:
       return "";
     case Tap::Fault::double_hit:
-      return "double hit, again at " + at;
+      return say("double hit, again at {}", at);
     case Tap::Fault::overload:
-      return "overload at " + at;
+      return say("overload at {}", at);
     case Tap::Fault::cut_off:
-      return "cut off at " + at;
+      return say("cut off at {}", at);
   }
   return "";
 }
 
 std::string name_of(std::size_t i, const Tap& tap) {
-  return "tap " + std::to_string(i + 1) + " at " + rounded(tap.at_s, 1e4) + " s";
+  return say("tap {} at {} s", i + 1, rounded(tap.at_s, 1e4));
 }
 
 nlohmann::ordered_json described(const TapTest& test) {
@@ -202,12 +202,12 @@ nlohmann::ordered_json described(const TapTest& test) {
 
 void report_faults(const Reader& csv, const TapTest& test) {
   if (test.taps.empty())
-    csv.problem("no tap", "a force that stands out of its noise", "missing");
+    csv.problem(tr("no tap"), tr("a force that stands out of its noise"), "missing");
   for (std::size_t i = 0; i < test.taps.size(); ++i)
     csv.problem(name_of(i, test.taps[i]) + ": " +
-                    (test.taps[i].fault == Tap::Fault::none ? "too short a block"
+                    (test.taps[i].fault == Tap::Fault::none ? tr("too short a block")
                                                             : fault_of(test.taps[i])),
-                "a tap without fault", "fit");
+                tr("a tap without fault"), "fit");
 }
 
 MeasuredResponse response_of(const TapTest& test, const Reader& csv) {
@@ -226,12 +226,12 @@ MeasuredResponse response_of(const TapTest& test, const Reader& csv) {
   }
   for (std::size_t i = 0; i < test.taps.size(); ++i)
     if (test.taps[i].fault != Tap::Fault::none)
-      out.doubts.push_back(csv.pointer() + ": " + name_of(i, test.taps[i]) +
-                           " counts nowhere: " + fault_of(test.taps[i]));
+      out.doubts.push_back(say("{}: {} counts nowhere: {}", csv.pointer(),
+                               name_of(i, test.taps[i]), fault_of(test.taps[i])));
   if (test.coherence.empty())
-    out.doubts.push_back(csv.pointer() +
-                         ": one tap alone has no coherence: three to five show whether "
-                         "they agree");
+    out.doubts.push_back(
+        say("{}: one tap alone has no coherence: three to five show whether they agree",
+            csv.pointer()));
   out.told["tap_test"] = described(test);
   return out;
 }
@@ -241,7 +241,7 @@ MeasuredResponse response_of(const TapTest& test, const Reader& csv) {
 std::optional<MeasuredResponse> read_response_taps(Reader& r) {
   const auto before = problems_of(r);
   Reader taps = r.object("taps");
-  const Reader csv = taps.at("csv", "the text of a table, or the list of its lines");
+  const Reader csv = taps.at("csv", tr("the text of a table, or the list of its lines"));
   const MeasuredTable table =
       read_measured_table(csv, taps.optional_object("columns"), tap_table());
   auto units = taps.optional_object("units");

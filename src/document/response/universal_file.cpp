@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "base/say.hpp"
 #include "document/json/csv.hpp"
 #include "document/json/text_lines.hpp"
 #include "measured_response.hpp"
@@ -13,7 +14,8 @@
 namespace turnwright::document {
 namespace {
 
-constexpr const char* kUniversal = "a universal file in ASCII, or the list of its lines";
+constexpr const char* kUniversal =
+    to_translate("a universal file in ASCII, or the list of its lines");
 constexpr std::size_t kMostValues = 100'000, kHeader = 11;
 constexpr double kUnread = std::numeric_limits<double>::quiet_NaN();
 
@@ -95,14 +97,15 @@ class UniversalReader {
       const std::size_t first = at_;
       while (at_ < lines_.size() && !is_delimiter(lines_[at_].text)) ++at_;
       if (at_ == lines_.size() && !trimmed(line(first)).starts_with("58b"))
-        report(first, shown_line(first), "a dataset that ends with a line of -1", "type");
+        report(first, shown_line(first), tr("a dataset that ends with a line of -1"),
+               "type");
       dataset(first, at_);
       ++at_;
       ++datasets_;
     }
     if (datasets_ == 0)
-      text_.problem("no dataset", "datasets of a universal file between lines of -1",
-                    "missing");
+      text_.problem(tr("no dataset"),
+                    tr("datasets of a universal file between lines of -1"), "missing");
     return std::move(out_);
   }
 
@@ -121,13 +124,13 @@ class UniversalReader {
   void dataset(std::size_t first, std::size_t end) {
     const auto number = trimmed(line(first)).substr(0, trimmed(line(first)).find(' '));
     if (number == "58b")
-      report(first, "a binary dataset 58b", "the ASCII form, dataset 58", "type");
+      report(first, tr("a binary dataset 58b"), tr("the ASCII form, dataset 58"), "type");
     else if (number == "58")
       function(first + 1, end);
     else if (number == "164")
       units_ = read_units(first + 1, end);
     else if (const auto n = csv_number(number); !n || *n < 1)
-      report(first, shown_line(first), "the number of a dataset", "type");
+      report(first, shown_line(first), tr("the number of a dataset"), "type");
   }
 
   /// Numbers of a line: between blanks, or else in the columns of the format.
@@ -144,10 +147,8 @@ class UniversalReader {
     for (const Field& f : fields) {
       const auto x = fortran_number(f.text);
       if (!x)
-        report(i,
-               shown(std::string(trimmed(f.text))) + " in column " +
-                   std::to_string(f.column),
-               "a number", "type");
+        report(i, say("{} in column {}", shown(std::string(trimmed(f.text))), f.column),
+               tr("a number"), "type");
       out.push_back(x.value_or(kUnread));
     }
     return out;
@@ -159,16 +160,16 @@ class UniversalReader {
     if (field.empty()) return 0;
     const auto x = csv_number(field);
     if (x && std::abs(*x) < 1e10 && std::floor(*x) == *x) return static_cast<long>(*x);
-    report(i, shown(std::string(field)) + " in column " + std::to_string(from + 1),
-           "an integer", "type");
+    report(i, say("{} in column {}", shown(std::string(field)), from + 1),
+           tr("an integer"), "type");
     return 0;
   }
 
   std::optional<UniversalUnits> read_units(std::size_t first, std::size_t end) {
     constexpr std::size_t kWidths[] = {25};
     if (end < first + 2) {
-      report(first - 1, "a dataset 164 of " + std::to_string(end - first) + " records",
-             "its factors in record 2", "count");
+      report(first - 1, say("a dataset 164 of {} records", end - first),
+             tr("its factors in record 2"), "count");
       return std::nullopt;
     }
     const auto factors = numbers(first + 1, kWidths);
@@ -176,7 +177,7 @@ class UniversalReader {
       return UniversalUnits{factors[0], factors[1]};
     if (std::ranges::none_of(factors, [](double x) { return std::isnan(x); }))
       report(first + 1, shown_line(first + 1),
-             "factors > 0 of length, force and temperature", "range");
+             tr("factors > 0 of length, force and temperature"), "range");
     return std::nullopt;
   }
 
@@ -191,8 +192,8 @@ class UniversalReader {
   UniversalDof dof(std::size_t i, std::size_t from) {
     UniversalDof out{integer(i, from, 10), static_cast<int>(integer(i, from + 10, 4))};
     if (std::abs(out.direction) > 6)
-      report(i, std::to_string(out.direction) + " in column " + std::to_string(from + 11),
-             "a direction from -6 to 6", "range");
+      report(i, say("{} in column {}", out.direction, from + 11),
+             tr("a direction from -6 to 6"), "range");
     return out;
   }
 
@@ -201,8 +202,8 @@ class UniversalReader {
     f.number = ++functions_;
     f.units = units_;
     if (end < first + kHeader) {
-      report(first - 1, "a dataset 58 of " + std::to_string(end - first) + " records",
-             "11 and its values", "count");
+      report(first - 1, say("a dataset 58 of {} records", end - first),
+             tr("11 and its values"), "count");
       return;
     }
     f.line = lines_[first].number;
@@ -242,16 +243,15 @@ class UniversalReader {
     if (x.empty()) x = numbers(i, kWidths);
     if (problems_of(text_) > before) return std::nullopt;
     x.resize(6, 0);
-    const auto wrong = [&](std::size_t k, const char* expected) {
-      report(i, number_text(x[k]) + " as field " + std::to_string(k + 1), expected,
-             "range");
+    const auto wrong = [&](std::size_t k, const std::string& expected) {
+      report(i, say("{} as field {}", number_text(x[k]), k + 1), expected, "range");
     };
     if (x[0] != 2 && x[0] != 4 && x[0] != 5 && x[0] != 6)
-      wrong(0, "2, 4, 5 or 6, the type of the ordinate");
+      wrong(0, tr("2, 4, 5 or 6, the type of the ordinate"));
     if (!(x[1] >= 1 && x[1] <= kMostValues) || std::floor(x[1]) != x[1])
-      wrong(1, "1 to 100000 values");
-    if (x[2] != 0 && x[2] != 1) wrong(2, "0 or 1, uneven or even spacing");
-    if (x[2] == 1 && !(x[4] > 0)) wrong(4, "a step > 0 of the abscissa");
+      wrong(1, tr("1 to 100000 values"));
+    if (x[2] != 0 && x[2] != 1) wrong(2, tr("0 or 1, uneven or even spacing"));
+    if (x[2] == 1 && !(x[4] > 0)) wrong(4, tr("a step > 0 of the abscissa"));
     if (problems_of(text_) > before) return std::nullopt;
     return Form{static_cast<int>(x[0]), static_cast<std::size_t>(x[1]), x[2] == 1, x[3],
                 x[4]};
@@ -275,10 +275,8 @@ class UniversalReader {
         value.clear();
       }
     if (read != all)
-      report(std::min(end, lines_.size() - 1), std::to_string(read) + " numbers",
-             std::to_string(all) + ", " + std::to_string(each) + " for each of " +
-                 std::to_string(form->count) + " values",
-             "count");
+      report(std::min(end, lines_.size() - 1), say("{} numbers", read),
+             say("{}, {} for each of {} values", all, each, form->count), "count");
   }
 
   void add_value(UniversalFunction& f, const Form& form, const std::vector<double>& value,
@@ -287,8 +285,8 @@ class UniversalReader {
     const double x =
         form.even ? form.from + form.step * static_cast<double>(f.x.size()) : value[0];
     if (!f.x.empty() && x <= f.x.back())
-      report(i, "the abscissa " + number_text(x),
-             "more than " + number_text(f.x.back()) + " of the value before", "order");
+      report(i, say("the abscissa {}", number_text(x)),
+             say("more than {} of the value before", number_text(f.x.back())), "order");
     f.x.push_back(x);
     f.y.emplace_back(value[y], form.complex() ? value[y + 1] : 0);
     f.lines.push_back(lines_[i].number);

@@ -6,6 +6,8 @@
 #include <optional>
 #include <string>
 
+#include "base/say.hpp"
+
 namespace turnwright::document {
 namespace {
 
@@ -27,38 +29,37 @@ class WavReader {
   WavFile read() {
     if (bytes_.size() < 12 || bytes_.substr(0, 4) != "RIFF" ||
         bytes_.substr(8, 4) != "WAVE")
-      return wrong(0, "no RIFF header of WAVE", "a .wav file");
+      return wrong(0, tr("no RIFF header of WAVE"), tr("a .wav file"));
     for (std::size_t at = 12; at < bytes_.size();) {
       if (at + kChunkHeader > bytes_.size())
-        return wrong(at, "the begin of a chunk", "its name and length");
+        return wrong(at, tr("the begin of a chunk"), tr("its name and length"));
       const std::size_t length = word_at(bytes_, at + 4, 4), body = at + kChunkHeader;
       const auto name = bytes_.substr(at, 4);
       if (length > bytes_.size() - body)
         return wrong(at,
-                     "a chunk of " + std::to_string(length) + " bytes, " +
-                         std::to_string(bytes_.size() - body) + " of them in the file",
-                     "a file that is not cut off");
+                     say("a chunk of {} bytes, {} of them in the file", length,
+                         bytes_.size() - body),
+                     tr("a file that is not cut off"));
       if (name == "fmt " && !read_format(body, length)) return {};
       if (name == "data") {
-        if (width_ == 0) return wrong(at, "data before fmt", "fmt before data");
+        if (width_ == 0) return wrong(at, tr("data before fmt"), tr("fmt before data"));
         return read_data(body, length);
       }
       at = body + length + length % 2;
     }
-    return wrong(bytes_.size(), "no chunk \"data\"", "samples");
+    return wrong(bytes_.size(), tr("no chunk \"data\""), "samples");
   }
 
  private:
   WavFile wrong(std::size_t byte, const std::string& got, const std::string& expected) {
     at_.problems().add(
-        {at_.pointer(), "byte " + std::to_string(byte) + ": " + got, expected, "format"});
+        {at_.pointer(), say("byte {}: {}", byte, got), expected, "format"});
     return {};
   }
 
   bool read_format(std::size_t at, std::size_t length) {
     if (length < kFormat)
-      return refused(at, "a fmt of " + std::to_string(length) + " bytes",
-                     "16 bytes or more");
+      return refused(at, say("a fmt of {} bytes", length), tr("16 bytes or more"));
     std::uint32_t kind = word_at(bytes_, at, 2);
     if (kind == kExtensible && length >= kExtended) kind = word_at(bytes_, at + 24, 2);
     const std::uint32_t channels = word_at(bytes_, at + 2, 2),
@@ -68,16 +69,14 @@ class WavReader {
     const bool known = (kind == kPcm && (bits == 16 || bits == 24 || bits == 32)) ||
                        (kind == kFloat && bits == 32);
     if (!known)
-      return refused(
-          at, "format " + std::to_string(kind) + " of " + std::to_string(bits) + " bits",
-          "PCM of 16, 24 or 32 bits, or floating point of 32");
+      return refused(at, say("format {} of {} bits", kind, bits),
+                     tr("PCM of 16, 24 or 32 bits, or floating point of 32"));
     if (channels < 1 || channels > 2)
-      return refused(at + 2, std::to_string(channels) + " channels", "one or two");
+      return refused(at + 2, say("{} channels", channels), tr("one or two"));
     if (rate < 1000 || rate > 400'000)
-      return refused(at + 4, std::to_string(rate) + " samples a second",
-                     "1000 to 400000");
+      return refused(at + 4, say("{} samples a second", rate), tr("1000 to 400000"));
     if (frame != channels * bits / 8)
-      return refused(at + 12, std::to_string(frame) + " bytes a sample of all channels",
+      return refused(at + 12, say("{} bytes a sample of all channels", frame),
                      std::to_string(channels * bits / 8));
     width_ = bits / 8;
     out_.rate_Hz = rate;
@@ -95,17 +94,17 @@ class WavReader {
   WavFile read_data(std::size_t at, std::size_t length) {
     const std::size_t frame = width_ * out_.channels.size(), count = length / frame;
     if (length % frame != 0)
-      return wrong(at, std::to_string(length) + " bytes of samples",
-                   "a multiple of " + std::to_string(frame));
+      return wrong(at, say("{} bytes of samples", length),
+                   say("a multiple of {}", frame));
     if (count > kWavSamples)
-      return wrong(at, std::to_string(count) + " samples a channel",
-                   "at most " + std::to_string(kWavSamples));
+      return wrong(at, say("{} samples a channel", count),
+                   say("at most {}", kWavSamples));
     for (std::size_t i = 0; i < count; ++i)
       for (std::size_t c = 0; c < out_.channels.size(); ++c) {
         const std::size_t byte = at + i * frame + c * width_;
         const double x = sample(byte);
         if (!std::isfinite(x))
-          return wrong(byte, "a sample that is no number", "numbers");
+          return wrong(byte, tr("a sample that is no number"), "numbers");
         out_.channels[c].push_back(x);
       }
     return std::move(out_);

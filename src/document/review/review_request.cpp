@@ -3,6 +3,7 @@
 #include <charconv>
 #include <set>
 
+#include "base/say.hpp"
 #include "document/json/fields.hpp"
 #include "document/json/read_below.hpp"
 #include "document/plan/controls.hpp"
@@ -29,7 +30,8 @@ std::vector<ReviewRequest::Text> read_programs(Reader& r) {
     p.zero_mm = item.number_or("zero_mm", within(-1e4, 1e4, "mm"), 0);
     item.finish();
     if (!all.empty() && !item.broken() && p.setup <= all.back().setup)
-      item.problem_at("setup", "a later setup than that of the program before", "order");
+      item.problem_at("setup", tr("a later setup than that of the program before"),
+                      "order");
     all.push_back(std::move(p));
   }
   return all;
@@ -47,7 +49,7 @@ std::vector<NumberedTool> read_turret(Reader& r) {
     t.size_mm = item.optional_number("size_mm", above_up_to(0, 500, "mm"));
     item.finish();
     if (!item.broken() && !numbers.insert(t.number).second)
-      item.problem_at("number", "one that no other tool has", "duplicate");
+      item.problem_at("number", tr("one that no other tool has"), "duplicate");
     all.push_back(std::move(t));
   }
   return all;
@@ -149,9 +151,7 @@ ReviewRequest load_review_request(const json& request, const Catalogue& catalogu
   const auto setups = out.part.usable.front().document.part.setups.size();
   for (std::size_t i = 0; i < out.programs.size(); ++i)
     if (out.programs[i].setup >= setups)
-      r.problem_at("programs",
-                   "programs of the part's " + std::to_string(setups) + " setups",
-                   "range");
+      r.problem_at("programs", say("programs of the part's {} setups", setups), "range");
   problems.throw_if_any();
   return out;
 }
@@ -164,11 +164,11 @@ ReviewInput review_input(const ReviewRequest& request, const planning::PreparedP
   for (const auto& t : request.tools) {
     const auto m = mount(crib, t.number, t.id, t.size_mm);
     if (!m)
-      problems.add({t.pointer + "/id", t.id, "the id of a tool of the part or catalogue",
-                    "reference"});
+      problems.add({t.pointer + "/id", t.id,
+                    tr("the id of a tool of the part or catalogue"), "reference"});
     else if (lacks_size(*m))
-      problems.add({t.pointer + "/size_mm", "nothing",
-                    "the diameter of a drill or the width of a blade", "missing"});
+      problems.add({t.pointer + "/size_mm", tr("nothing"),
+                    tr("the diameter of a drill or the width of a blade"), "missing"});
     else
       in.tools.push_back(*m);
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "base/say.hpp"
 #include "document/json/reader.hpp"
 #include "tool_estimates.hpp"
 
@@ -42,20 +43,20 @@ std::optional<double> edge_mm(const LibraryTool& t, const Insert1832& like) {
 // What of the library disagrees with the designation, "SC is T, RE is 0.4 mm".
 std::string disagreement(const LibraryTool& t, const Insert1832& named) {
   std::string all;
-  const auto tell = [&](bool wrong, const char* symbol, const std::string& value) {
-    if (wrong) all += fmt::format("{}{} is {}", all.empty() ? "" : ", ", symbol, value);
+  const auto tell = [&](bool wrong, const std::string& symbol, const std::string& value) {
+    if (wrong) all += say("{}{} is {}", all.empty() ? "" : ", ", symbol, value);
   };
-  const auto letter = [&](const char* symbol, const std::optional<char>& given,
+  const auto letter = [&](const std::string& symbol, const std::optional<char>& given,
                           char own) {
     if (given) tell(*given != own, symbol, std::string(1, *given));
   };
   letter("SC", t.SC, named.shape);
   letter("TC", t.TC, named.tolerance_class);
-  letter("the type", t.type, named.type);
+  letter(tr("the type"), t.type, named.type);
   if (t.AN_deg)
-    tell(*t.AN_deg != named.clearance_deg, "AN", number_text(*t.AN_deg) + " deg");
+    tell(*t.AN_deg != named.clearance_deg, "AN", say("{} deg", number_text(*t.AN_deg)));
   if (const auto edge = edge_mm(t, named))
-    tell(differs(*edge, named.edge_length_mm), "the edge",
+    tell(differs(*edge, named.edge_length_mm), tr("the edge"),
          fmt::format("{:.3f} mm", *edge));
   if (t.S_mm) tell(differs(*t.S_mm, named.thickness_mm), "S", mm_text(*t.S_mm));
   if (t.RE_mm)
@@ -78,11 +79,11 @@ double clearance_deg(const DraftSource& from) {
   if (t.AN_deg) return *t.AN_deg;
   if (const auto known = printed_clearance_deg(from.printed)) return *known;
   const bool screwed = t.clamping ? t.clamping == 'S' : t.boring;
-  from.remarks.assume(
-      "/insert", screwed ? "The clearance of the insert is not said: C, 7 deg, as usual "
-                           "for screwed inserts and for bars."
-                         : "The clearance of the insert is not said: N, 0 deg, as usual "
-                           "for inserts that are not screwed.");
+  from.remarks.assume("/insert",
+                      screwed ? tr("The clearance of the insert is not said: C, 7 deg, "
+                                   "as usual for screwed inserts and for bars.")
+                              : tr("The clearance of the insert is not said: N, 0 deg, "
+                                   "as usual for inserts that are not screwed."));
   return screwed ? kScrewed_deg : 0;
 }
 
@@ -105,9 +106,10 @@ Insert1832 insert_by_sizes(const DraftSource& from) {
   const auto corner_deg = catalogue::included_angle_deg(shape);
   if (!corner_deg || !t.RE_mm || !(t.L_mm || t.IC_mm || t.size_mm))
     throw std::domain_error(
-        shape == 'R' ? "A round insert: its edge angle changes with the depth of cut, "
-                       "which no model here follows."
-                     : "Its insert is not said: a designation, or SC, RE and IC or L.");
+        shape == 'R'
+            ? tr("A round insert: its edge angle changes with the depth of cut, which no "
+                 "model here follows.")
+            : tr("Its insert is not said: a designation, or SC, RE and IC or L."));
   insert.shape = shape;
   insert.included_angle_deg = *corner_deg;
   insert.re_mm = *t.RE_mm;
@@ -118,7 +120,7 @@ Insert1832 insert_by_sizes(const DraftSource& from) {
   insert.edge_length_mm = *edge_mm(t, insert);
   if (!t.S_mm)
     from.remarks.assume("/insert",
-                        "The thickness of the insert is not said: the usual one.");
+                        tr("The thickness of the insert is not said: the usual one."));
   insert.thickness_mm = t.S_mm.value_or(usual_thickness_mm(
       insert.edge_length_mm / catalogue::edge_length_mm(shape, 1), insert.clearance_deg));
   return insert;
@@ -138,14 +140,14 @@ DraftedInsert by_designation(LibraryTool t, const Insert1832& named,
                              const DraftRemarks& remarks) {
   if (named.shape == 'R')
     throw std::domain_error(
-        "A round insert: its edge angle changes with the depth of cut, which no model "
-        "here follows.");
+        tr("A round insert: its edge angle changes with the depth of cut, which no model "
+           "here follows."));
   const auto designation = catalogue::encode_iso1832(named);
   DraftedInsert out{catalogue::decode_iso1832(designation), designation, named.re_mm};
   t.RE_mm = unrounded_mm(t.RE_mm, out.insert);
   if (const auto wrong = disagreement(t, out.insert); !wrong.empty())
-    remarks.contradict(fmt::format("The insert is named {}, but {}: the name is taken.",
-                                   designation, wrong));
+    remarks.contradict(
+        say("The insert is named {}, but {}: the name is taken.", designation, wrong));
   if (t.RE_mm && catalogue::is_corner_of(out.insert, *t.RE_mm)) out.re_mm = *t.RE_mm;
   return out;
 }
@@ -156,7 +158,7 @@ DraftedInsert drafted_insert(const DraftSource& from) {
   const auto& [tool, printed, remarks] = from;
   if (!printed.unreadable.empty() ||
       (!tool.insert.empty() && !printed_designations({tool.insert}).insert))
-    remarks.contradict(fmt::format(
+    remarks.contradict(say(
         "{} is no designation of ISO 1832: the insert follows from what else is said.",
         shown(printed.unreadable.empty() ? shortened(tool.insert, 40)
                                          : printed.unreadable)));
@@ -167,10 +169,11 @@ DraftedInsert drafted_insert(const DraftSource& from) {
     out.designation = catalogue::encode_iso1832(insert);
     out.insert = catalogue::decode_iso1832(out.designation);
   } catch (const std::domain_error& error) {
-    throw std::domain_error(fmt::format("No insert of ISO 1832: {}.", error.what()));
+    throw std::domain_error(say("No insert of ISO 1832: {}.", error.what()));
   }
   if (!catalogue::is_corner_of(out.insert, out.re_mm)) {
-    remarks.assume("/geometry", "The corner is that of its code in ISO 1832, not RE.");
+    remarks.assume("/geometry",
+                   tr("The corner is that of its code in ISO 1832, not RE."));
     out.re_mm = out.insert.re_mm;
   }
   return out;

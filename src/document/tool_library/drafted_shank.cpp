@@ -1,10 +1,9 @@
 #include "drafted_shank.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <stdexcept>
 
+#include "base/say.hpp"
 #include "document/json/reader.hpp"
 #include "tool_estimates.hpp"
 
@@ -26,13 +25,13 @@ double shank_mm(const DraftSource& from, const DraftedInsert& insert) {
   const auto& said = from.tool.DCON_mm;
   const bool named = from.printed.bar && holds(from.printed, insert);
   if (!named && !said)
-    throw std::domain_error("Its shank is not said: DCON, or a bar's designation.");
+    throw std::domain_error(tr("Its shank is not said: DCON, or a bar's designation."));
   if (!named) return *said;
   const double d = from.printed.bar->diameter_mm;
   if (said && !is_coded(said, d))
     from.remarks.contradict(
-        fmt::format("{} has a shank of {}, the library says {}: the name is taken.",
-                    from.printed.holder_text, mm_text(d), mm_text(rounded(*said))));
+        say("{} has a shank of {}, the library says {}: the name is taken.",
+            from.printed.holder_text, mm_text(d), mm_text(rounded(*said))));
   return d;
 }
 
@@ -42,10 +41,10 @@ double tip_offset_mm(const DraftSource& from, double d_mm) {
   const auto& said = from.tool.WF_mm;
   const bool same_shank = is_coded(from.tool.DCON_mm.value_or(d_mm), d_mm);
   if (said && same_shank && *said > d_mm / 2) return *said;
-  from.remarks.assume("/bar/tip_offset_mm",
-                      "The distance of the corner from the bar's axis (WF) is not said, "
-                      "lies within the shank or is another bar's: 0.7 of the shank's "
-                      "diameter.");
+  from.remarks.assume(
+      "/bar/tip_offset_mm",
+      tr("The distance of the corner from the bar's axis (WF) is not said, lies within "
+         "the shank or is another bar's: 0.7 of the shank's diameter."));
   return kUsual * d_mm;
 }
 
@@ -56,11 +55,11 @@ double least_bore_mm(const DraftSource& from, double d_mm, double offset_mm) {
   if (said && *said >= tight_mm) return *said;
   if (said)
     from.remarks.contradict(
-        fmt::format("DMIN is {}, in which shank and corner do not fit: {} is taken.",
-                    mm_text(rounded(*said)), mm_text(rounded(tight_mm + kRoom_mm))));
+        say("DMIN is {}, in which shank and corner do not fit: {} is taken.",
+            mm_text(rounded(*said)), mm_text(rounded(tight_mm + kRoom_mm))));
   else
     from.remarks.assume("/bar/min_bore_mm",
-                        "The smallest bore is not said: shank, corner and 1 mm.");
+                        tr("The smallest bore is not said: shank, corner and 1 mm."));
   return tight_mm + kRoom_mm;
 }
 
@@ -72,9 +71,9 @@ std::optional<Holder5608> printed_shank(const DraftSource& from) {
       is_coded(t.LF_mm, h.lf_mm.value_or(t.LF_mm.value_or(0))))
     return h;
   if (t.H_mm && t.B_mm && t.LF_mm)
-    from.remarks.contradict(fmt::format(
-        "{} is named, but H x B is {:g} x {:g} mm and LF {:g} mm: no shank is taken.",
-        from.printed.holder_text, *t.H_mm, *t.B_mm, *t.LF_mm));
+    from.remarks.contradict(
+        say("{} is named, but H x B is {:g} x {:g} mm and LF {:g} mm: no shank is taken.",
+            from.printed.holder_text, *t.H_mm, *t.B_mm, *t.LF_mm));
   return std::nullopt;
 }
 
@@ -109,9 +108,9 @@ nlohmann::ordered_json drafted_bar(const DraftSource& from, const DraftedInsert&
   const double d_mm = shank_mm(from, insert), offset_mm = tip_offset_mm(from, d_mm);
   const bool carbide = from.printed.bar && from.printed.bar->shank == 'E';
   if (!from.tool.OHX_mm)
-    from.remarks.assume("/bar/segments", "The overhang is not said: 4 diameters.");
+    from.remarks.assume("/bar/segments", tr("The overhang is not said: 4 diameters."));
   from.remarks.assume("/bar/holder",
-                      "The stiffness of block and sleeve is one usual for a turret.");
+                      tr("The stiffness of block and sleeve is one usual for a turret."));
   return estimated(
       {{"E_MPa", carbide ? 600000 : 210000},
        {"nu", carbide ? 0.22 : 0.3},
@@ -122,7 +121,8 @@ nlohmann::ordered_json drafted_bar(const DraftSource& from, const DraftedInsert&
        {"min_bore_mm", rounded(least_bore_mm(from, d_mm, offset_mm))},
        {"holder",
         {{"c0_mm_N", 1.6666667e-05}, {"c1_rad_N", 0}, {"c2_rad_Nmm", 2.5e-09}}}},
-      "shank of the library; overhang, block and what else was assumed are estimates");
+      to_translate("shank of the library; overhang, block and what else was assumed are "
+                   "estimates"));
 }
 
 nlohmann::ordered_json drafted_holder(const DraftSource& from,
@@ -140,7 +140,7 @@ nlohmann::ordered_json drafted_holder(const DraftSource& from,
                     {"lf_mm", h->lf_mm.value_or(*t.LF_mm)},
                     {"lh_mm", rounded(*t.LH_mm)},
                     {"wf_mm", rounded(*t.WF_mm)}},
-                   "the library's holder", kSaid_pct);
+                   to_translate("the library's holder"), kSaid_pct);
 }
 
 }  // namespace turnwright::document

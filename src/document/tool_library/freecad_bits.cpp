@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "base/say.hpp"
 #include "hole_tool_draft.hpp"
 #include "library_readers.hpp"
 #include "turnwright/catalogue/tool_codes.hpp"
@@ -41,8 +42,8 @@ class Parameters {
       if (times) number = given->value * *times;
     }
     if (number && *number > 0) return *number;
-    wrong_ += fmt::format("{}parameter/{}: got {}, expected a number > 0 {}",
-                          wrong_.empty() ? "" : "; ", key, shown(value), wanted);
+    wrong_ += say("{}parameter/{}: got {}, expected a number > 0 {}",
+                  wrong_.empty() ? "" : "; ", key, shown(value), wanted);
     return 0;
   }
   json values_;
@@ -70,10 +71,10 @@ std::optional<LibraryTool> read_hole_bit(const json& bit, Parameters& parameters
     t.SIG_deg = parameters.angle_deg("CuttingEdgeAngle");
   const auto attribute = bit.value("attribute", json::object());
   if (!parameters.wrong().empty())
-    why = "It cannot be read: " + parameters.wrong() + ".";
+    why = say("It cannot be read: {}.", parameters.wrong());
   else if (attribute.is_object() &&
            attribute.value("SpindleDirection", json()) == "Reverse")
-    why = "It turns to the left: part documents have right-hand threads.";
+    why = tr("It turns to the left: part documents have right-hand threads.");
   return why.empty() ? std::optional(t) : std::nullopt;
 }
 
@@ -89,7 +90,8 @@ std::optional<LibraryTool> read_bit(const json& bit, std::string& why) {
     if (!hole.use.empty()) return read_hole_bit(bit, parameters, std::move(hole), why);
   }
   if (!parameters.has("TipAngle") || !parameters.has("EdgeLength")) {
-    why = "It is no turning bit, which has TipAngle, EdgeLength, TipRadius and Rotation.";
+    why = tr(
+        "It is no turning bit, which has TipAngle, EdgeLength, TipRadius and Rotation.");
     return std::nullopt;
   }
   LibraryTool t;
@@ -104,9 +106,9 @@ std::optional<LibraryTool> read_bit(const json& bit, std::string& why) {
   // A trigon has the corner of a rhombus of 80 deg.
   if (t.SC == 'C' && t.name.starts_with('W')) t.SC = 'W';
   if (!parameters.wrong().empty())
-    why = "It cannot be read: " + parameters.wrong() + ".";
+    why = say("It cannot be read: {}.", parameters.wrong());
   else if (!t.SC)
-    why = fmt::format("No insert of ISO 1832 has a corner of {:g} deg.", tip_deg);
+    why = say("No insert of ISO 1832 has a corner of {:g} deg.", tip_deg);
   return why.empty() ? std::optional(t) : std::nullopt;
 }
 
@@ -162,7 +164,8 @@ ToolLibrary read_freecad_bits(const std::vector<NamedJson>& bits) {
       out.tools.push_back(std::move(*tool));
     } else {
       out.ignored.push_back(
-          {name, why.empty() ? "It is no bit of FreeCAD, {\"parameter\": {..}}." : why});
+          {name,
+           why.empty() ? tr("It is no bit of FreeCAD, {\"parameter\": {..}}.") : why});
     }
   }
   return out;
@@ -179,9 +182,8 @@ ToolLibrary read_freecad_libraries(const std::vector<NamedJson>& libraries,
       if (missing.size() >= kMostTools) break;
       const auto* bit = files.find(path);
       if (!bit)
-        missing.push_back(
-            {readable(shortened(fmt::format("T{} {}", number, path), 200)),
-             fmt::format("{} names it, and it is not among the files.", library)});
+        missing.push_back({readable(shortened(fmt::format("T{} {}", number, path), 200)),
+                           say("{} names it, and it is not among the files.", library)});
       else if (taken.insert(bit->name).second)
         named.push_back({fmt::format("T{} {}", number, bit->name), bit->value});
     }

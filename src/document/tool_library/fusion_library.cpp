@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 
+#include "base/say.hpp"
 #include "document/json/pointer.hpp"
 #include "hole_tool_draft.hpp"
 #include "library_readers.hpp"
@@ -47,8 +48,8 @@ class Numbers {
     const json& value = member_of(object, key);
     if (value.is_null()) return std::nullopt;
     if (!value.is_number() || !(value.get<double>() >= 0)) {
-      wrong_ += fmt::format("{}{}{}: got {}, expected a number from 0", separator(),
-                            place, key, shown(value));
+      wrong_ += say("{}{}{}: got {}, expected a number from 0", separator(), place, key,
+                    shown(value));
       return std::nullopt;
     }
     const auto number = value.get<double>();
@@ -65,8 +66,8 @@ class Numbers {
     if (value.is_null() && otherwise > 0) return otherwise;
     const auto mm = unit_mm(text_at(object, "unit"));
     if (!mm)
-      wrong_ += fmt::format("{}{}unit: got {}, expected \"millimeters\" or \"inches\"",
-                            separator(), place, shown(value));
+      wrong_ += say("{}{}unit: got {}, expected \"millimeters\" or \"inches\"",
+                    separator(), place, shown(value));
     return mm.value_or(1);
   }
   const std::string& wrong() const { return wrong_; }
@@ -124,16 +125,16 @@ void read_presets(const json& item, double unit, Numbers& numbers, LibraryTool& 
 std::string other_type(const std::string& type) {
   constexpr std::array kNoCutters{"holder", "tool block", "probe"};
   if (std::ranges::find(kNoCutters, type) != kNoCutters.end())
-    return fmt::format("\"{}\" is no cutting tool.", type);
+    return say("\"{}\" is no cutting tool.", type);
   if (type == "tap left hand")
-    return "\"tap left hand\": part documents have right-hand threads.";
+    return tr("\"tap left hand\": part documents have right-hand threads.");
   if (type.starts_with("turning "))
-    return fmt::format(
+    return say(
         "\"{}\": documents of such tools (schemas/fixed-tool.json) need reach and "
         "conditions for every group of materials, which a library does not say.",
         type);
-  return fmt::format("{} is no turning tool with an insert.",
-                     type.empty() ? "An entry without a type" : '"' + type + '"');
+  return say("{} is no turning tool with an insert.",
+             type.empty() ? tr("An entry without a type") : '"' + type + '"');
 }
 
 // Numbers of a tap, a reamer or a countersink.
@@ -185,18 +186,18 @@ ToolLibrary read_fusion_library(const Reader& library) {
   const char* const key = member_of(root, "data").is_array() ? "data" : "tools";
   const json& list = member_of(root, key);
   if (!list.is_array()) {
-    library.problem("a tool library of Fusion, {\"data\": [..]}", "format");
+    library.problem(tr("a tool library of Fusion, {\"data\": [..]}"), "format");
     return out;
   }
-  const auto at_most = [&](std::size_t count, std::size_t most, const char* what) {
-    if (count > most)
-      library.problem(fmt::format("more than {} {}", most, what), "fewer of them",
-                      "limit");
-    return count <= most;
+  const auto refuse = [&](const std::string& got) {
+    library.problem(got, tr("fewer of them"), "limit");
+    return out;
   };
-  if (!at_most(list.size(), kMostEntries, "entries")) return out;
+  if (list.size() > kMostEntries)
+    return refuse(say("more than {} entries", kMostEntries));
   for (std::size_t i = 0; i < list.size(); ++i) {
-    if (!at_most(out.tools.size(), kMostTools, "turning tools")) return out;
+    if (out.tools.size() > kMostTools)
+      return refuse(say("more than {} turning tools", kMostTools));
     const auto at = fmt::format("/{}/{}", key, i);
     const auto type = text_at(list[i], "type");
     if (!is_read(type)) {
@@ -208,9 +209,10 @@ ToolLibrary read_fusion_library(const Reader& library) {
     tool.at = at;
     if (tool.use.empty() && text_at(list[i], "BMC") == "hss")
       out.ignored.push_back(
-          {at, "A tool of high-speed steel: lives of materials are those of carbide."});
+          {at,
+           tr("A tool of high-speed steel: lives of materials are those of carbide.")});
     else if (!numbers.wrong().empty())
-      out.ignored.push_back({at, "It cannot be read: " + numbers.wrong() + "."});
+      out.ignored.push_back({at, say("It cannot be read: {}.", numbers.wrong())});
     else
       out.tools.push_back(std::move(tool));
   }

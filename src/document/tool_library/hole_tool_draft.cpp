@@ -7,6 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "base/say.hpp"
 #include "tool_estimates.hpp"
 #include "turnwright/base/pattern.hpp"
 #include "turnwright/part/inch_thread.hpp"
@@ -17,8 +18,8 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr const char* kAsInCatalogue =
-    "not in the library: estimates for high-speed steel, as in the shipped catalogue";
+constexpr const char* kAsInCatalogue = to_translate(
+    "not in the library: estimates for high-speed steel, as in the shipped catalogue");
 constexpr double kLeadPitches = 2.5;  // form C
 constexpr double kLead_mm = 1.5;      // of a machine reamer
 
@@ -63,19 +64,20 @@ std::string other_thread(const LibraryTool& tool) {
   static const Pattern kOther(
       R"(\b(NPTF?|NPSM?|BSPT?|BSPP|BSW|BSF|BA|Rc|Rp|Rd|Tr|PG|Acme)\b ?\d*|\bG ?\d{1,2}(/\d)?)",
       kAnyCase);
-  if (tool.hand == 'L') return "A left-hand tap: part documents have right-hand threads.";
+  if (tool.hand == 'L')
+    return tr("A left-hand tap: part documents have right-hand threads.");
   auto texts = tool.texts;
   texts.insert(texts.end(), {tool.thread, tool.name});
   for (const auto& text : texts) {
     const std::string searched = shortened(text, kLongest);
     if (kLeft.find_in(searched))
-      return "A left-hand tap: part documents have right-hand threads.";
+      return tr("A left-hand tap: part documents have right-hand threads.");
     if (kForming.find_in(searched))
-      return "A forming tap: its hole is wider than that of a cutting one.";
+      return tr("A forming tap: its hole is wider than that of a cutting one.");
     if (kInsert.find_in(searched))
-      return "A tap for wire inserts: its thread is wider than it is called.";
+      return tr("A tap for wire inserts: its thread is wider than it is called.");
     if (kOther.find_in(searched))
-      return "A tap of another thread than metric or unified ones.";
+      return tr("A tap of another thread than metric or unified ones.");
   }
   return "";
 }
@@ -84,7 +86,7 @@ double diameter_mm(const std::string& thread) {
   if (const auto inch = part::inch_thread(thread)) return inch->d_mm;
   const auto metric = part::metric_thread(thread);
   if (!metric || !(metric->d_mm > 0 && metric->pitch_mm.value_or(0) > 0))
-    throw std::domain_error(thread + " is no thread of a tap.");
+    throw std::domain_error(say("{} is no thread of a tap.", thread));
   return metric->d_mm;
 }
 
@@ -97,8 +99,8 @@ std::string thread_of_tap(const LibraryTool& tool) {
   if (const auto named = threads_in(tool.thread); !named.empty()) return named.front();
   if (tool.DC_mm && tool.TP_mm) {
     if (!(*tool.TP_mm <= kMostPitch * *tool.DC_mm))
-      throw std::domain_error(fmt::format("A pitch (TP) of {:g} mm on {:g} mm (DC).",
-                                          *tool.TP_mm, *tool.DC_mm));
+      throw std::domain_error(
+          say("A pitch (TP) of {:g} mm on {:g} mm (DC).", *tool.TP_mm, *tool.DC_mm));
     const auto inch = part::inch_designation(*tool.DC_mm, *tool.TP_mm);
     return inch ? *inch : metric(rounded(*tool.DC_mm), rounded(*tool.TP_mm));
   }
@@ -107,12 +109,12 @@ std::string thread_of_tap(const LibraryTool& tool) {
       if (!tool.DC_mm || std::abs(*tool.DC_mm - diameter_mm(named)) < kNominal_mm)
         return named;
   throw std::domain_error(
-      "A tap of which neither the thread nor diameter and pitch (DC, TP) are said.");
+      tr("A tap of which neither the thread nor diameter and pitch (DC, TP) are said."));
 }
 
 double size_of(const LibraryTool& tool) {
   if (!(tool.DC_mm.value_or(0) > 0))
-    throw std::domain_error("Its cutting diameter (DC) is not said.");
+    throw std::domain_error(tr("Its cutting diameter (DC) is not said."));
   return rounded(*tool.DC_mm);
 }
 
@@ -134,9 +136,8 @@ class HoleDrafting {
     d["gamma_deg"] = tool_.GAMO_deg.value_or(usual_.gamma_deg);
     d["change_min"] = usual_.change_min;
     d["edge_cost"] = usual_.edge_cost;
-    assume("/edge_cost",
-           fmt::format("Costs are not said: {:g} an edge, {:g} min to change it.",
-                       usual_.edge_cost, usual_.change_min));
+    assume("/edge_cost", say("Costs are not said: {:g} an edge, {:g} min to change it.",
+                             usual_.edge_cost, usual_.change_min));
     d = estimated(std::move(d), kAsInCatalogue);
   }
 
@@ -148,10 +149,10 @@ class HoleDrafting {
   void add_tap() {
     auto& d = out_.document;
     const auto thread = thread_of_tap(tool_);
-    if (tool_.name.empty()) d["name"] = "tap " + thread;
+    if (tool_.name.empty()) d["name"] = fmt::format("tap {}", thread);
     d["threads"] = {thread};
     d["lead_pitches"] = kLeadPitches;
-    assume("/lead_pitches", "The lead is not said: form C, 2.5 pitches.");
+    assume("/lead_pitches", tr("The lead is not said: form C, 2.5 pitches."));
     add_edges_and_reach(diameter_mm(thread));
   }
 
@@ -163,10 +164,9 @@ class HoleDrafting {
     d["allowance_mm"] = {0.1, 0.3};
     d["lead_mm"] = kLead_mm;
     d["hole"] = {{"grade", 7}, {"Ra_um", 0.8}};
-    assume("/hole", "The class of the hole is not said: H7, Ra 0.8 um.");
-    assume("/allowance_mm",
-           "What a reamer takes off is not said: 0.1 to 0.3 mm of the diameter, with a "
-           "lead of 1.5 mm.");
+    assume("/hole", tr("The class of the hole is not said: H7, Ra 0.8 um."));
+    assume("/allowance_mm", tr("What a reamer takes off is not said: 0.1 to 0.3 mm of "
+                               "the diameter, with a lead of 1.5 mm."));
     add_edges_and_reach(size);
   }
 
@@ -178,7 +178,7 @@ class HoleDrafting {
     d["sizes_mm"] = {size};
     d["point_deg"] = tool_.SIG_deg.value_or(kUsual_deg);
     if (!tool_.SIG_deg)
-      assume("/point_deg", "The point angle (SIG) is not said: 90 deg.");
+      assume("/point_deg", tr("The point angle (SIG) is not said: 90 deg."));
     add_edges();
   }
 
@@ -187,8 +187,7 @@ class HoleDrafting {
     out_.document["edges"] = static_cast<int>(
         std::lround(std::clamp(tool_.NOF.value_or(usual_.edges), 0.0, kAbsurd)));
     if (!tool_.NOF)
-      assume("/edges",
-             fmt::format("The number of edges (NOF) is not said: {}.", usual_.edges));
+      assume("/edges", say("The number of edges (NOF) is not said: {}.", usual_.edges));
   }
 
   void add_edges_and_reach(double d_mm) {
@@ -197,8 +196,8 @@ class HoleDrafting {
         tool_.LU_mm ? rounded(*tool_.LU_mm / d_mm) : usual_.reach_diameters;
     if (!tool_.LU_mm)
       assume("/reach_diameters",
-             fmt::format("The usable length (LU) is not said: {:g} diameters.",
-                         usual_.reach_diameters));
+             say("The usable length (LU) is not said: {:g} diameters.",
+                 usual_.reach_diameters));
   }
 
   void add_conditions(const std::string& groups) {
@@ -212,9 +211,9 @@ class HoleDrafting {
       list.push_back(std::move(entry));
     }
     if (list.empty())
-      throw std::domain_error(
-          "Such tools of high-speed steel cut no material of the groups " + wanted + ".");
-    assume("/conditions", "Conditions are not said: those of high-speed steel.");
+      throw std::domain_error(say(
+          "Such tools of high-speed steel cut no material of the groups {}.", wanted));
+    assume("/conditions", tr("Conditions are not said: those of high-speed steel."));
   }
 
   const LibraryTool& tool_;

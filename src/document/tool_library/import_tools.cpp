@@ -1,13 +1,12 @@
 #include "turnwright/document/import_tools.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cctype>
 #include <map>
 #include <set>
 #include <utility>
 
+#include "base/say.hpp"
 #include "document/catalogue/catalogue_readers.hpp"
 #include "document/exchange/given_file.hpp"
 #include "document/json/fields.hpp"
@@ -76,8 +75,8 @@ std::string objection(const ordered_json& document) {
     (void)read_tool(Reader(value, problems));
   if (problems.list.empty()) return "";
   const auto& p = problems.list.front();
-  return fmt::format("Its document would be refused: {}: got {}, expected {}.", p.pointer,
-                     p.got, p.expected);
+  return say("Its document would be refused: {}: got {}, expected {}.", p.pointer, p.got,
+             p.expected);
 }
 
 std::string letters(const std::vector<catalogue::IsoGroup>& groups) {
@@ -122,7 +121,7 @@ ordered_json import_tools(const json& request) {
   Problems problems{.document = kDoor};
   Reader r = Reader(request, problems).as_object();
   read_format(r, "turnwright-import-tools/1");
-  const auto given = read_given_file(r, "library", kLargestLibrary);
+  const auto given = read_given_file(r, to_translate("library"), kLargestLibrary);
   const Choices<const char*> units{{"mm", "mm"}, {"inch", "inch"}};
   const std::string unit = r.choice_or("unit", units, "mm");
   const std::string groups =

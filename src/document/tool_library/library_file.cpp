@@ -1,13 +1,12 @@
 #include "library_file.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <initializer_list>
 #include <list>
 #include <string_view>
 #include <utility>
 
+#include "base/say.hpp"
 #include "document/json/parse.hpp"
 #include "library_readers.hpp"
 
@@ -17,13 +16,13 @@ namespace {
 using nlohmann::json;
 
 constexpr const char* kLibrary = "tool library";
-constexpr const char* kReadable =
+constexpr const char* kReadable = to_translate(
     "a tool library of Fusion (.json, .tools), a table with symbols of ISO 13399 (.csv), "
     "MTConnect cutting tools (.xml) or bits of FreeCAD (.fctb, also several with their "
-    "library .fctl, or a zip archive of them)";
+    "library .fctl, or a zip archive of them)");
 
 [[noreturn]] void refuse_library(const std::string& got) {
-  throw InputError(kLibrary, {{"", got, kReadable, "format"}});
+  throw InputError(kLibrary, {{"", got, tr(kReadable), "format"}});
 }
 
 // The JSON of a file of an archive, or of the only file.
@@ -47,11 +46,11 @@ bool lists_files(const json& root) {
 LibraryFile read_json(const std::string& text, const std::string& file) {
   const json root = parsed(text, file);
   if (root.is_object() && root.contains("parameter"))
-    return {"freecad", read_freecad_bits({{"the bit", &root}})};
+    return {"freecad", read_freecad_bits({{tr("the bit"), &root}})};
   if (lists_files(root))
     refuse_library(
-        "a list of bits of FreeCAD (.fctl), which are files of their own: give them "
-        "with it, as files or in a zip archive");
+        tr("a list of bits of FreeCAD (.fctl), which are files of their own: give them "
+           "with it, as files or in a zip archive"));
   Problems problems{.document = kLibrary};
   auto library = read_fusion_library(Reader(root, problems));
   problems.throw_if_any();
@@ -83,8 +82,8 @@ LibraryFile read_zip(const std::string& bytes, std::size_t largest) {
     if (entry.name.ends_with(".json"))
       return read_json(entry.bytes, readable(entry.name));
   refuse_library(entries.empty()
-                     ? "a zip archive without tools.json and without .fctb files"
-                     : "a GTC package: its data in ISO 13399 Part 21 are not read");
+                     ? tr("a zip archive without tools.json and without .fctb files")
+                     : tr("a GTC package: its data in ISO 13399 Part 21 are not read"));
 }
 
 LibraryFile read_table(const std::string& bytes, const std::string& unit) {
@@ -94,8 +93,8 @@ LibraryFile read_table(const std::string& bytes, const std::string& unit) {
   auto library = read_tool_table(Reader(text, problems), unit, others);
   problems.throw_if_any();
   for (const auto& name : others)
-    library.ignored.push_back({"header", fmt::format("The column {} is not read.",
-                                                     shown(shortened(name, 60)))});
+    library.ignored.push_back(
+        {"header", say("The column {} is not read.", shown(shortened(name, 60)))});
   return {"csv", std::move(library)};
 }
 
@@ -109,7 +108,7 @@ LibraryFile read_library_file(const std::string& bytes, const std::string& unit,
       begin == bytes.npos ? std::string_view() : std::string_view(bytes).substr(begin);
   if (rest.starts_with('{') || rest.starts_with('['))
     return read_json(std::string(rest), "");
-  if (rest.starts_with("ISO-10303-21")) refuse_library("a file of ISO 10303-21");
+  if (rest.starts_with("ISO-10303-21")) refuse_library(tr("a file of ISO 10303-21"));
   if (!rest.starts_with('<')) return read_table(bytes, unit);
   Problems problems{.document = kLibrary};
   auto library = read_mtconnect(bytes, problems, "");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <pugixml.hpp>
 
+#include "base/say.hpp"
 #include "hole_tool_draft.hpp"
 #include "library_readers.hpp"
 
@@ -43,8 +44,8 @@ void read_measurements(const pugi::xml_node& of, LibraryTool& t, std::string& wr
     if (given && given->unit.empty())
       t.*symbol->member = given->value;
     else
-      wrong += fmt::format("{}{}: got {}, expected a number", wrong.empty() ? "" : "; ",
-                           code, shown(readable(shortened(std::string(text), 60))));
+      wrong += say("{}{}: got {}, expected a number", wrong.empty() ? "" : "; ", code,
+                   shown(readable(shortened(std::string(text), 60))));
   }
 }
 
@@ -58,18 +59,17 @@ bool has_measurement(const pugi::xml_node& of, std::string_view code) {
 std::string place_of(const pugi::xml_node& asset) {
   const auto id = asset.attribute("assetId");
   return readable(shortened(
-      fmt::format("{} {}", local_name(asset), id ? id.value() : "without assetId"), 200));
+      fmt::format("{} {}", local_name(asset), id ? id.value() : tr("without assetId")),
+      200));
 }
 
 // Why an asset is no turning tool, or "".
 std::string no_turning_tool(const pugi::xml_node& life_cycle, std::ptrdiff_t items) {
   for (const char* diameter : {"DC", "DCX"})
     if (has_measurement(life_cycle, diameter))
-      return fmt::format("It has a cutting diameter ({}): a tool that turns itself.",
-                         diameter);
-  if (items == 0) return "It has no CuttingItem, which would be the insert.";
-  if (items > 1)
-    return fmt::format("It has {} CuttingItems; a turning tool has one.", items);
+      return say("It has a cutting diameter ({}): a tool that turns itself.", diameter);
+  if (items == 0) return tr("It has no CuttingItem, which would be the insert.");
+  if (items > 1) return say("It has {} CuttingItems; a turning tool has one.", items);
   return "";
 }
 
@@ -94,7 +94,7 @@ std::optional<LibraryTool> read_asset(const pugi::xml_node& asset, std::string& 
   read_measurements(item, t, wrong);
   t.boring = t.DMIN_mm || (t.DCON_mm && !t.H_mm);
   if (wrong.empty()) return t;
-  why = "It cannot be read: " + wrong + ".";
+  why = say("It cannot be read: {}.", wrong);
   return std::nullopt;
 }
 
@@ -108,15 +108,13 @@ ToolLibrary read_mtconnect(std::string_view xml, Problems& problems,
   Assets assets;
   if (parsed) document.traverse(assets);
   if (!parsed)
-    problems.add({pointer,
-                  fmt::format("byte {}: {}", parsed.offset, parsed.description()),
-                  "XML (1.0)", "format"});
+    problems.add({pointer, say("byte {}: {}", parsed.offset, parsed.description()),
+                  tr("XML (1.0)"), "format"});
   else if (assets.found.empty())
-    problems.add({pointer, "XML without CuttingTool",
-                  "cutting tool assets of MTConnect, <CuttingTool>", "format"});
+    problems.add({pointer, tr("XML without CuttingTool"),
+                  tr("cutting tool assets of MTConnect, <CuttingTool>"), "format"});
   else if (assets.found.size() > kMostTools)
-    problems.add(
-        {pointer, "more assets", fmt::format("at most {}", kMostTools), "limit"});
+    problems.add({pointer, tr("more assets"), say("at most {}", kMostTools), "limit"});
   if (!parsed || assets.found.size() > kMostTools) return out;
   for (const auto& asset : assets.found) {
     std::string why;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "base/say.hpp"
 #include "document/json/reader.hpp"
 #include "drafted_insert.hpp"
 #include "drafted_shank.hpp"
@@ -68,16 +69,14 @@ class Drafting {
       if (holds(printed_, insert_))
         all.push_back({printed_.holder_text, deg});
       else
-        remarks_.contradict(
-            fmt::format("{} is named, which does not hold {}: it is not "
-                        "used.",
-                        printed_.holder_text, insert_.designation));
+        remarks_.contradict(say("{} is named, which does not hold {}: it is not used.",
+                                printed_.holder_text, insert_.designation));
     }
     if (tool_.KAPR_deg) all.push_back({"KAPR", *tool_.KAPR_deg});
     if (tool_.PSIR_deg) all.push_back({"PSIR", 90 - *tool_.PSIR_deg});
     if (tool_.style)
       if (const auto deg = catalogue::style_kapr_deg(*tool_.style))
-        all.push_back({fmt::format("style {}", *tool_.style), *deg});
+        all.push_back({say("style {}", *tool_.style), *deg});
     return all;
   }
 
@@ -85,17 +84,16 @@ class Drafting {
     constexpr double kSame_deg = 1;  // makers print 107 for 107.5 deg
     const auto all = angles();
     if (all.empty()) {
-      remarks_.assume("/geometry/kapr_deg",
-                      "The edge angle is not said: that of the usual "
-                      "holder of this shape.");
+      remarks_.assume(
+          "/geometry/kapr_deg",
+          tr("The edge angle is not said: that of the usual holder of this shape."));
       return usual_kapr_deg(insert_.insert.shape);
     }
     for (const auto& other : all)
       if (!(std::abs(other.deg - all[0].deg) <= kSame_deg))
         remarks_.contradict(
-            fmt::format("{} has an edge angle of {:g} deg, {} of {:g} deg: "
-                        "the first is taken.",
-                        all[0].what, all[0].deg, other.what, other.deg));
+            say("{} has an edge angle of {:g} deg, {} of {:g} deg: the first is taken.",
+                all[0].what, all[0].deg, other.what, other.deg));
     return rounded(all[0].deg);
   }
 
@@ -108,15 +106,15 @@ class Drafting {
       return out;
     };
     if (auto said = in(tool_.groups); !said.empty()) return said;
-    remarks_.assume("/groups", fmt::format("The groups of materials are not said: {}.",
-                                           fmt::join(in(otherwise), ", ")));
+    remarks_.assume("/groups", say("The groups of materials are not said: {}.",
+                                   fmt::join(in(otherwise), ", ")));
     return in(otherwise);
   }
 
   std::vector<std::string> uses() {
     if (tool_.boring) return {"boring"};
-    remarks_.assume("/uses",
-                    "What it may do is not said: what its corner and edge angle allow.");
+    remarks_.assume(
+        "/uses", tr("What it may do is not said: what its corner and edge angle allow."));
     return usual_uses(insert_.insert, kapr_deg_, insert_.re_mm);
   }
 
@@ -124,22 +122,22 @@ class Drafting {
     const auto corner_deg = *catalogue::included_angle_deg(insert_.insert.shape);
     if (tool_.EPSR_deg && *tool_.EPSR_deg != corner_deg)
       remarks_.contradict(
-          fmt::format("EPSR is {} deg, but the insert is {}: the insert is taken.",
-                      number_text(*tool_.EPSR_deg), insert_.designation));
+          say("EPSR is {} deg, but the insert is {}: the insert is taken.",
+              number_text(*tool_.EPSR_deg), insert_.designation));
     const auto minor_deg = catalogue::minor_angle_deg(kapr_deg_, insert_.insert);
     if (!(*minor_deg > 0))
-      throw std::domain_error(fmt::format(
-          "KAPR {:g} deg and the corner of {} leave no angle to the minor edge.",
-          kapr_deg_, insert_.designation));
+      throw std::domain_error(
+          say("KAPR {:g} deg and the corner of {} leave no angle to the minor edge.",
+              kapr_deg_, insert_.designation));
     return *minor_deg;
   }
 
   ordered_json geometry() {
     const double minor_deg = minor_angle_deg();
     if (!tool_.GAMO_deg)
-      remarks_.assume("/geometry/gamma_deg",
-                      "The rake is not said: that of the usual "
-                      "holder and chip groove.");
+      remarks_.assume(
+          "/geometry/gamma_deg",
+          tr("The rake is not said: that of the usual holder and chip groove."));
     const double said_pct = 2, rake_pct = 20;
     return estimated(
         {{"kapr_deg", kapr_deg_},
@@ -147,8 +145,9 @@ class Drafting {
          {"gamma_deg", tool_.GAMO_deg.value_or(usual_rake_deg(insert_.insert))},
          {"alpha_deg", usual_clearance_deg(insert_.insert)},
          {"re_mm", rounded(insert_.re_mm)}},
-        "the library's insert and holder; minor angle = 180 - KAPR - corner "
-        "angle; rake as `assumed` says",
+        to_translate(
+            "the library's insert and holder; minor angle = 180 - KAPR - corner angle; "
+            "rake as `assumed` says"),
         tool_.GAMO_deg ? said_pct : rake_pct);
   }
 
@@ -172,13 +171,12 @@ class Drafting {
       feeds.upper = std::min(feeds.upper, kMostOfCorner * insert_.re_mm);
       if (feeds.lower < feeds.upper) return feeds;
       remarks_.contradict(
-          fmt::format("The presets' feed is more than the corner of {} bears: "
-                      "the usual feed is taken.",
-                      mm_text(rounded(insert_.re_mm))));
+          say("The presets' feed is more than the corner of {} bears: the usual feed is "
+              "taken.",
+              mm_text(rounded(insert_.re_mm))));
     }
     remarks_.assume("/window/f_mm_rev",
-                    "The feed is not said: 0.15 to 0.6 of the corner "
-                    "radius.");
+                    tr("The feed is not said: 0.15 to 0.6 of the corner radius."));
     return usual_feed_mm_rev(insert_.re_mm);
   }
 
@@ -186,9 +184,8 @@ class Drafting {
     auto depths = usual_depth_mm(insert_.insert, insert_.re_mm);
     if (!tool_.APMX_mm) {
       remarks_.assume("/window/ap_mm",
-                      "The depth is not said: from 0.6 of the corner "
-                      "radius to a quarter of the edge, an eighth of "
-                      "corners below 60 deg.");
+                      tr("The depth is not said: from 0.6 of the corner radius to a "
+                         "quarter of the edge, an eighth of corners below 60 deg."));
       return depths;
     }
     depths.upper = *tool_.APMX_mm;
@@ -201,15 +198,16 @@ class Drafting {
     if (!(speeds.upper > 0)) {
       speeds = {20, 400};
       remarks_.assume("/window/vc_m_min",
-                      "The speed is not said: 20 to 400 m/min, all "
-                      "materials.");
+                      tr("The speed is not said: 20 to 400 m/min, all materials."));
     }
-    return estimated({{"f_mm_rev", range(feeds_mm_rev())},
-                      {"ap_mm", range(depths_mm())},
-                      {"vc_m_min", range(speeds)}},
-                     "about the library's presets, where there are any: 60 to 150 % of "
-                     "their feed, 60 to 140 % of their speed; else estimates from the "
-                     "insert's size");
+    return estimated(
+        {{"f_mm_rev", range(feeds_mm_rev())},
+         {"ap_mm", range(depths_mm())},
+         {"vc_m_min", range(speeds)}},
+        to_translate(
+            "about the library's presets, where there are any: 60 to 150 % of their "
+            "feed, "
+            "60 to 140 % of their speed; else estimates from the insert's size"));
   }
 
   void add_what_no_library_says() {
@@ -219,12 +217,11 @@ class Drafting {
     d["strength"] = estimated({{"Fc_max_N", 10 * std::round(most_N / 10)}});
     d["life"] = estimated({{"T_min", {10, 100000}}});
     d["economics"] = estimated({{"change_min", 1}, {"edge_cost", 3}});
-    remarks_.assume(
-        "/strength",
-        "The strength is not said: the force of the window's largest feed and "
-        "depth at 2500 MPa.");
-    remarks_.assume("/life", "The life is not said: 10 min and longer.");
-    remarks_.assume("/economics", "Costs are not said: 3 an edge, 1 min to change it.");
+    remarks_.assume("/strength", tr("The strength is not said: the force of the window's "
+                                    "largest feed and depth at 2500 MPa."));
+    remarks_.assume("/life", tr("The life is not said: 10 min and longer."));
+    remarks_.assume("/economics",
+                    tr("Costs are not said: 3 an edge, 1 min to change it."));
   }
 
   void add_carrier() {
@@ -234,10 +231,9 @@ class Drafting {
     } else if (auto holder = drafted_holder(from_, insert_); !holder.is_null()) {
       d["holder"] = std::move(holder);
     } else {
-      remarks_.assume(
-          "/holder",
-          "There is no metric holder of ISO 5608 with all of H, B, LF, LH and "
-          "WF: the outline is the insert alone.");
+      remarks_.assume("/holder",
+                      tr("There is no metric holder of ISO 5608 with all of H, B, LF, LH "
+                         "and WF: the outline is the insert alone."));
     }
   }
 

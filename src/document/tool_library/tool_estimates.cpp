@@ -9,7 +9,7 @@ namespace turnwright::document {
 nlohmann::ordered_json estimated(nlohmann::ordered_json group, const char* source,
                                  double uncertainty_pct) {
   group["uncertainty_pct"] = uncertainty_pct;
-  group["source"] = source;
+  group["source"] = tr(source);
   return group;
 }
 

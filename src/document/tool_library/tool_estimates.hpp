@@ -3,19 +3,20 @@
 #include <string>
 #include <vector>
 
+#include "turnwright/base/language.hpp"
 #include "turnwright/catalogue/tool_codes.hpp"
 
 /// What libraries do not say of a tool, estimated from its insert as the catalogue's own
 /// tools have it: feeds, depths, strength, angles.  Makers know better.
 namespace turnwright::document {
 
-/// Source of a group of numbers that is estimated here.
-inline constexpr const char* kNotInLibrary =
-    "not in the library: estimate from the insert's size, as in the shipped catalogue";
+/// Source of a group of numbers that is estimated here, in English.
+inline constexpr const char* kNotInLibrary = to_translate(
+    "not in the library: estimate from the insert's size, as in the shipped catalogue");
 /// Their relative uncertainty [%], one standard deviation.
 inline constexpr double kEstimate_pct = 50;
 
-/// A group of a document with its uncertainty and source.
+/// A group of a document with its uncertainty and source, an English text.
 nlohmann::ordered_json estimated(nlohmann::ordered_json group,
                                  const char* source = kNotInLibrary,
                                  double uncertainty_pct = kEstimate_pct);

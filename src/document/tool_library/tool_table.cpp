@@ -1,7 +1,7 @@
-#include <fmt/format.h>
 
 #include <algorithm>
 
+#include "base/say.hpp"
 #include "document/json/csv.hpp"
 #include "hole_tool_draft.hpp"
 #include "library_readers.hpp"
@@ -36,15 +36,15 @@ class Row {
     if (cell.empty() || cell == "-") return;
     const auto given = quantity(cell);
     if (!given || !given->unit.empty()) {
-      wrong(symbol.code, cell, "a number");
+      wrong(symbol.code, cell, tr("a number"));
       return;
     }
     t.*symbol.member = given->value * (symbol.length ? unit : 1);
   }
   void wrong(std::string_view column, const std::string& cell,
              std::string_view expected) {
-    wrong_ += fmt::format("{}{}: got {}, expected {}", wrong_.empty() ? "" : "; ", column,
-                          shown(shortened(cell, 60)), expected);
+    wrong_ += say("{}{}: got {}, expected {}", wrong_.empty() ? "" : "; ", column,
+                  shown(shortened(cell, 60)), expected);
   }
   const std::string& wrong() const { return wrong_; }
 
@@ -61,13 +61,13 @@ void read_words(Row& row, LibraryTool& t) {
   t.holder = row.word("holder");
   t.groups = row.word("TMC1ISO");
   if (t.groups.find_first_not_of("PMKNSH0123456789 ,/-") != std::string::npos)
-    row.wrong("TMC1ISO", t.groups, "letters of ISO 513, P M K N S H");
+    row.wrong("TMC1ISO", t.groups, tr("letters of ISO 513, P M K N S H"));
   for (const auto& text : {t.name, t.id})
     if (!text.empty()) t.texts.push_back(text);
   const auto letter = [&](const char* column, std::optional<char>& member) {
     const auto cell = row.word(column);
     if (cell.size() > 1)
-      row.wrong(column, cell, "one letter");
+      row.wrong(column, cell, tr("one letter"));
     else if (!cell.empty())
       member = cell[0];
   };
@@ -79,7 +79,7 @@ void read_words(Row& row, LibraryTool& t) {
   t.use = hole_use(type);
   if (!t.use.empty()) t.texts.push_back(type);  // "tap left hand"
   if (!type.empty() && type != "boring" && type != "turning" && t.use.empty())
-    row.wrong("type", type, "turning, boring, tap, reamer or countersink");
+    row.wrong("type", type, tr("turning, boring, tap, reamer or countersink"));
 }
 
 LibraryTool read_row(Row& row, double unit) {
@@ -87,7 +87,7 @@ LibraryTool read_row(Row& row, double unit) {
   read_words(row, t);
   if (const auto name = row.word("unit"); !name.empty()) {
     const auto mm = unit_mm(name);
-    if (!mm) row.wrong("unit", name, "mm or inch");
+    if (!mm) row.wrong("unit", name, tr("mm or inch"));
     unit = mm.value_or(1);
   }
   for (const auto& symbol : symbols()) row.number(symbol, unit, t);
@@ -107,9 +107,10 @@ ToolLibrary read_tool_table(const Reader& csv, const std::string& unit,
   };
   const auto header = csv_header(csv);
   if (!header.empty() && std::ranges::none_of(header, is_known)) {
-    csv.problem("a header of other columns",
-                "columns with symbols of ISO 13399, as RE, IC, KAPR, or with \"insert\"",
-                "format");
+    csv.problem(
+        tr("a header of other columns"),
+        tr("columns with symbols of ISO 13399, as RE, IC, KAPR, or with \"insert\""),
+        "format");
     return out;
   }
   std::ranges::remove_copy_if(header, std::back_inserter(others), is_known);
@@ -120,7 +121,7 @@ ToolLibrary read_tool_table(const Reader& csv, const std::string& unit,
     if (row.wrong().empty())
       out.tools.push_back(std::move(tool));
     else
-      out.ignored.push_back({tool.at, "It cannot be read: " + row.wrong() + "."});
+      out.ignored.push_back({tool.at, say("It cannot be read: {}.", row.wrong())});
   }
   return out;
 }
