@@ -117,7 +117,7 @@ Check check(const PreparedPart& p, const planning::SetupPlan& setup,
   const auto& d = p.drawing;
   const bool size = part::facts(t.kind).rule == ToleranceRule::size && t.limits;
   Check c;
-  c.of = t.of.empty() ? say("{} to {}", t.between[0], t.between[1]) : t.of;
+  c.of = t.of.empty() ? t.between[0] + say(" to {}", t.between[1]) : t.of;
   if (size) {
     const double nominal = nominal_mm(d, t);
     const auto fit = of_element(d, t.of, [](const auto& e) { return e.fit; });
@@ -130,7 +130,7 @@ Check check(const PreparedPart& p, const planning::SetupPlan& setup,
                            kMicrometre, nominal + t.limits->upper_mm, kMicrometre);
   } else {
     const auto kind = kind_words(part::name(t.kind));
-    c.what = t.datum.empty() ? kind : say("{} to {}", kind, part::datum_words(t));
+    c.what = t.datum.empty() ? kind : kind + say(" to {}", part::datum_words(t));
     c.limits = fmt::format("{:.{}f}", t.value_mm, kMicrometre);
   }
   c.predicted = micrometres(result.predicted_mm, size);

@@ -101,7 +101,7 @@ Row factor_row(const ordered_json& f) {
   std::string name = word(f, "name");
   std::replace(name.begin(), name.end(), '_', ' ');
   name = spoken(name);
-  if (!word(f, "by").empty()) name = say("{} by {}", name, spoken(word(f, "by")));
+  if (!word(f, "by").empty()) name += say(" by {}", spoken(word(f, "by")));
   return {
       {name, significant(number(prior, "value"), 3), significant(number(prior, "u"), 2),
        significant(number(post, "value"), 3), significant(number(post, "lower"), 3),

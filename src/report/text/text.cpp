@@ -150,7 +150,7 @@ std::string budget(const ordered_json& result) {
   const auto all = sources(stacks);
   std::vector<Column> columns{{tr("id"), Align::left}, {tr("width")}};
   for (const auto& source : all) columns.push_back({clipped(spoken(source), 11)});
-  columns.push_back({tr("left")});
+  columns.push_back({say("left{}", "")});  // what remains, not the side
   std::vector<Row> rows;
   for (std::size_t i = 0; i < stacks.size(); ++i) {
     Row row{{word(*tolerances[i], "id"), micrometres(*tolerances[i], "width_mm")}, ""};
