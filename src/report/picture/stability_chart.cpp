@@ -148,9 +148,9 @@ class Chart {
       svg_.text({x + 7.5, y + 1}, Anchor::start, text);
       x += 24;
     };
-    stroke("flip", "flip");
+    stroke("flip", tr("flip"));
     stroke("hopf", "Hopf");
-    if (folds_) stroke("fold", "fold");
+    if (folds_) stroke("fold", tr("fold"));
     stroke("", tr("first limit"));
     if (robust) stroke(tr("robust"), tr("robust"));
     box("count1", {x, y - 1.5}, {x + 4, y + 1.5});

@@ -144,12 +144,29 @@ Entries times(const PreparedPart& p, const planning::ProcessPlan& plan,
   return all;
 }
 
+/// How comments of stops begin, a longer beginning before the shorter; the programs have them
+/// in English.
+constexpr const char* kAsked[] = {
+    to_translate("bring up the tailstock, set the follow rest"),
+    to_translate("bring up the tailstock"),
+    to_translate("from the chuck to between centres"),
+    to_translate("set the steady rest at "),
+    to_translate("jaws to "),
+    to_translate("not in this program: ")};
+
+std::string spoken_comment(std::string_view comment) {
+  constexpr std::string_view kStop = "stop: ";
+  if (comment.starts_with(kStop)) comment.remove_prefix(kStop.size());
+  for (const std::string_view begin : kAsked)
+    if (comment.starts_with(begin)) return tr(begin).append(comment.substr(begin.size()));
+  return std::string(comment);
+}
+
 /// What a stop of the program asks for, without the word "stop".
 std::string asked(const toolpath::Step& stop) {
   std::string text;
-  for (const auto& c : stop.comments) text += (text.empty() ? "" : "; ") + c;
-  constexpr std::string_view kStop = "stop: ";
-  return text.starts_with(kStop) ? text.substr(kStop.size()) : text;
+  for (const auto& c : stop.comments) text += text.empty() ? spoken_comment(c) : "; " + c;
+  return text;
 }
 
 std::vector<StopRow> stops(const SetupPlan& s, const toolpath::SetupProgram& program) {

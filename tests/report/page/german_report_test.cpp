@@ -88,6 +88,13 @@ TEST_F(GermanReport, OfAFeasiblePartHasGermanHeadingsAndTheSameNumbers) {
   EXPECT_EQ(numbers(page), numbers(english_page));
 }
 
+TEST_F(GermanReport, SaysWhatToDoAtAStopOfTheProgram) {
+  const auto r = planned("gearbox-input-shaft");
+  EXPECT_TRUE(has(r.html(), "<td>bring up the tailstock</td>"));
+  speak_german();
+  EXPECT_TRUE(has(r.html(), "<td>Reitstock anstellen</td>"));
+}
+
 TEST_F(GermanReport, OfAnInfeasiblePartHasEverySection) {
   const auto r = planned("infeasible-as-drawn");
   const auto english = text(r.result);
