@@ -5,6 +5,7 @@
 #include <memory>
 #include <thread>
 
+#include "base/say.hpp"
 #include "options.hpp"
 #include "progress_line.hpp"
 #include "service/batch/runner.hpp"
@@ -37,8 +38,7 @@ service::Shard shard_of(const std::string& text) {
   const auto count = number_in(std::string_view(text).substr(behind), kShards);
   if (!index || !count || *index > *count)
     throw wrong_option("--shard", '"' + text + '"',
-                       "i/n with 1 <= i <= n <= " + std::to_string(kShards.most),
-                       "range");
+                       say("i/n with 1 <= i <= n <= {}", kShards.most), "range");
   return {*index, *count};
 }
 
@@ -48,17 +48,16 @@ std::string name(const service::Shard& shard) {
 
 void tell(const service::BatchFolder& folder, const service::BatchSummary& summary) {
   const auto& counts = summary.counts;
-  service::print((folder.path() / "results.jsonl").string() + ": " +
-                 std::to_string(counts.records()) + " records, " +
-                 std::to_string(counts.ok) + " ok, " + std::to_string(counts.infeasible) +
-                 " infeasible, " + std::to_string(counts.errors) + " errors\n");
+  service::print(say("{}: {} records, {} ok, {} infeasible, {} errors\n",
+                     (folder.path() / "results.jsonl").string(), counts.records(),
+                     counts.ok, counts.infeasible, counts.errors));
 }
 
 void run_here(const BatchArguments& arguments, const fs::path& data,
               service::BatchInput& input, const service::BatchFolder& folder) {
   const auto catalogue = document::load_catalogue(data);
   const unsigned cores = std::max(1U, std::thread::hardware_concurrency());
-  ProgressLine line("lines");
+  ProgressLine line(to_translate("{} of {} lines, {}/s, {} left"));
   service::run_batch(input, folder, arguments.shard.value_or(service::Shard{}), catalogue,
                      arguments.jobs.value_or(cores), [&line](const BatchProgress& now) {
                        line.tell(now.found, now.done, now.lines);
@@ -79,7 +78,8 @@ bool run_on_cluster(const BatchArguments& arguments, const fs::path& data,
   }
   const auto array = cluster.submit();
   if (array.empty()) return true;
-  service::print("submitted as array " + array + "; --reconcile waits for the results\n");
+  service::print(
+      say("submitted as array {}; --reconcile waits for the results\n", array));
   return false;
 }
 
@@ -100,46 +100,48 @@ void run_batch(const BatchArguments& arguments,
     run_here(arguments, data, input, folder);
   }
   if (!arguments.shard) return tell(folder, folder.assemble(input));
-  service::print("shard " + name(*arguments.shard) + " is done\n");
+  service::print(say("shard {} is done\n", name(*arguments.shard)));
 }
 
 }  // namespace
 
 void add_batch(CLI::App& app, const std::optional<fs::path>& data,
                const std::function<void(std::function<void()>)>& chosen) {
-  auto* command = app.add_subcommand("batch", "many requests, one a line, to a folder");
+  auto* command =
+      app.add_subcommand("batch", tr("many requests, one a line, to a folder"));
   auto arguments = std::make_shared<BatchArguments>();
   command
       ->add_option("LINES", arguments->lines,
-                   R"(file of lines {"name": "plan", "document": {..}})")
+                   tr("file of lines {\"name\": \"plan\", \"document\": {..}}"))
       ->required();
   add_path(*command, "-o,--output", arguments->folder,
-           "folder of the results; a run that was interrupted continues there")
+           tr("folder of the results; a run that was interrupted continues there"))
       ->required();
   add_number<unsigned>(*command, "--jobs", arguments->jobs, {1, 1024},
-                       "lines at once (default: one a core)");
+                       tr("lines at once (default: one a core)"));
   auto* shard = command->add_option_function<std::string>(
       "--shard",
       [arguments](const std::string& text) { arguments->shard = shard_of(text); },
-      "part i/n of the lines; when all are done, a run without --shard puts them "
-      "together");
+      tr("part i/n of the lines; when all are done, a run without --shard puts them "
+         "together"));
   add_number<std::int64_t>(
       *command, "--chunk", arguments->chunk, {1, 1'000'000},
-      "lines that are kept together; a kill costs no more (default: 100)");
+      tr("lines that are kept together; a kill costs no more (default: 100)"));
   auto* slurm = command->add_flag("--slurm", arguments->slurm,
-                                  "submit as an array of Slurm, and return");
+                                  tr("submit as an array of Slurm, and return"));
   auto* reconcile =
       command->add_flag("--reconcile", arguments->reconcile,
-                        "wait for Slurm's tasks, submit what is missing, until all is "
-                        "there; then put it together");
+                        tr("wait for Slurm's tasks, submit what is missing, until all is "
+                           "there; then put it together"));
   slurm->excludes(shard);
   reconcile->excludes(shard)->excludes(slurm);
   add_number<std::int64_t>(*command, "--task-lines", arguments->task_lines,
-                           {1, 100'000'000}, "lines of one of Slurm's tasks");
+                           {1, 100'000'000}, tr("lines of one of Slurm's tasks"));
   command->footer(
-      "Writes results.jsonl, one record a line, in the order of LINES, and "
-      "summary.json.\n"
-      "Example:\n"
+      tr("Writes results.jsonl, one record a line, in the order of LINES, and "
+         "summary.json.") +
+      '\n' + tr("Example:") +
+      "\n"
       R"(  printf '{"name": "multipass", "document": {"dt_mm": %d}}\n' 6 8 > depths.jsonl)"
       "\n  turnwright batch depths.jsonl -o depths");
   command->callback([arguments, &data, chosen] {

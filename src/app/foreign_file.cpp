@@ -6,6 +6,8 @@
 #include <iostream>
 #include <utility>
 
+#include "base/say.hpp"
+
 namespace turnwright::app {
 namespace {
 
@@ -14,9 +16,8 @@ std::string read_all(std::istream& in, const std::string& name, const ForeignFil
   while (in.read(block.data(), std::ssize(block)) || in.gcount() > 0) {
     bytes.append(block, 0, static_cast<std::size_t>(in.gcount()));
     if (bytes.size() > kind.most_bytes)
-      throw InputError(
-          name, {{"", "more than " + std::to_string(kind.most_bytes) + " bytes",
-                  std::string("a ") + kind.what + " of at most so many", "limit"}});
+      throw InputError(name, {{"", say("more than {} bytes", kind.most_bytes),
+                               tr(kind.small), "limit"}});
   }
   return bytes;
 }
@@ -27,13 +28,12 @@ std::string read_foreign_file(const std::string& file, const ForeignFile& kind) 
   if (file == "-") return read_all(std::cin, name_of_foreign_file(file), kind);
   std::ifstream in(file, std::ios::binary);
   if (!in || std::filesystem::is_directory(file))
-    throw InputError(file,
-                     {{"", "nothing readable", std::string("a ") + kind.kinds, "file"}});
+    throw InputError(file, {{"", tr("nothing readable"), tr(kind.kinds), "file"}});
   return read_all(in, file, kind);
 }
 
 std::string name_of_foreign_file(const std::string& file) {
-  return file == "-" ? "standard input" : file;
+  return file == "-" ? tr("standard input") : file;
 }
 
 void rethrow_of_foreign_file(const InputError& error, const std::string& file) {
@@ -48,7 +48,7 @@ void rethrow_of_foreign_file(const InputError& error, const std::string& file) {
     else
       p.pointer.replace(0, 1, "--");
   }
-  throw InputError(all_of_file ? name_of_foreign_file(file) : "command line",
+  throw InputError(all_of_file ? name_of_foreign_file(file) : tr("command line"),
                    std::move(problems));
 }
 

@@ -8,8 +8,8 @@
 namespace turnwright::app {
 
 struct ForeignFile {
-  const char* what;        ///< "drawing"
-  const char* kinds;       ///< "STEP, DXF or text file"
+  const char* small;       ///< "a drawing of at most so many"
+  const char* kinds;       ///< "a STEP, DXF or text file"
   std::size_t most_bytes;  ///< larger ones are refused before they are read whole
 };
 

@@ -9,6 +9,7 @@
 #include "options.hpp"
 #include "service/output.hpp"
 #include "service/requests.hpp"
+#include "turnwright/base/language.hpp"
 #include "turnwright/document/import.hpp"
 
 namespace turnwright::app {
@@ -24,7 +25,8 @@ struct ImportArguments {
       nlohmann::json::object();  ///< of the request, beside the drawing
 };
 
-constexpr ForeignFile kDrawing{"drawing", "STEP, DXF or text file",
+constexpr ForeignFile kDrawing{to_translate("a drawing of at most so many"),
+                               to_translate("a STEP, DXF or text file"),
                                document::kLargestDrawing};
 
 // A drawing, or a request of the capability as other commands take one.
@@ -36,8 +38,9 @@ nlohmann::json request_of(const ImportArguments& arguments) {
   auto request = drawing ? document::import_request(std::move(bytes))
                          : document::parse(bytes, name, document::kLocalLimits);
   if (request.is_object() && request.contains("outer"))
-    throw InputError(name, {{"document", "a part document",
-                             "a drawing, for plan takes this file as it is", "type"}});
+    throw InputError(name,
+                     {{"document", tr("a part document"),
+                       tr("a drawing, for plan takes this file as it is"), "type"}});
   request.update(arguments.members);
   return request;
 }
@@ -52,7 +55,7 @@ nlohmann::ordered_json imported(const ImportArguments& arguments, const fs::path
   }
 }
 
-void tell(const char* what, const nlohmann::ordered_json& remarks) {
+void tell(const std::string& what, const nlohmann::ordered_json& remarks) {
   for (const auto& r : remarks) {
     const auto at = r["at"].get<std::string>();
     std::cerr << what << ": "
@@ -69,8 +72,8 @@ void run(const ImportArguments& arguments, const std::optional<fs::path>& data) 
   else
     service::print(text);
   if (arguments.json || arguments.quiet) return;
-  tell("assumed", result["assumed"]);
-  tell("ignored", result["ignored"]);
+  tell(tr("assumed"), result["assumed"]);
+  tell(tr("ignored"), result["ignored"]);
 }
 
 }  // namespace
@@ -78,20 +81,20 @@ void run(const ImportArguments& arguments, const std::optional<fs::path>& data) 
 void add_import(CLI::App& app, const std::optional<fs::path>& data,
                 const std::function<void(std::function<void()>)>& chosen) {
   auto* command = app.add_subcommand(
-      "import", "STEP, DXF or a line of text -> part document for plan");
+      "import", tr("STEP, DXF or a line of text -> part document for plan"));
   auto arguments = std::make_shared<ImportArguments>();
   command
       ->add_option("DRAWING", arguments->file,
-                   "STEP or DXF file, or elements as text; - reads standard input")
+                   tr("STEP or DXF file, or elements as text; - reads standard input"))
       ->required();
   add_path(*command, "-o,--output", arguments->output,
-           "write the part document here; - is standard output",
+           tr("write the part document here; - is standard output"),
            Dash::is_standard_output);
   command->add_flag("--json", arguments->json,
-                    "the whole result: part, what was assumed and what was ignored");
+                    tr("the whole result: part, what was assumed and what was ignored"));
   command->add_flag("--quiet", arguments->quiet,
-                    "do not tell what was assumed and ignored");
-  const auto text = [&](const char* option, const char* key, const char* help) {
+                    tr("do not tell what was assumed and ignored"));
+  const auto text = [&](const char* option, const char* key, const std::string& help) {
     command
         ->add_option_function<std::string>(
             option,
@@ -99,14 +102,15 @@ void add_import(CLI::App& app, const std::optional<fs::path>& data,
             help)
         ->type_name("WORD");
   };
-  text("--material", "material", "id of the material, if the drawing names none");
-  text("--machine", "machine", "id of the lathe; otherwise lathe-medium");
-  text("--general", "general", "general tolerances; otherwise ISO 2768-mK");
-  text("--name", "name", "name of the part; otherwise the drawing's");
-  text("--body", "body", "which body of a STEP file with several, by name");
-  text("--source", "source", "step, dxf or notation, if it is not recognised");
+  text("--material", "material", tr("id of the material, if the drawing names none"));
+  text("--machine", "machine", tr("id of the lathe; otherwise lathe-medium"));
+  text("--general", "general", tr("general tolerances; otherwise ISO 2768-mK"));
+  text("--name", "name", tr("name of the part; otherwise the drawing's"));
+  text("--body", "body", tr("which body of a STEP file with several, by name"));
+  text("--source", "source", tr("step, dxf or notation, if it is not recognised"));
   command->footer(
-      "Examples:\n"
+      tr("Examples:") +
+      "\n"
       "  echo 'd50 h7 x 40 Ra1.6; d30 k6 x 32' | turnwright import - --material C45 "
       "--json\n"
       "  echo 'd50 x 40; 1x45; d30 h7 x 32' | turnwright import - --material C45 --quiet "

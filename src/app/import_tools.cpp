@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/say.hpp"
 #include "document/json/parse.hpp"
 #include "document/tool_library/zip_archive.hpp"
 #include "foreign_file.hpp"
@@ -31,7 +32,8 @@ struct ImportToolsArguments {
       nlohmann::json::object();  ///< of the request, beside the library
 };
 
-constexpr ForeignFile kLibrary{"tool library", ".tools, .json, .csv, .xml or .fctb file",
+constexpr ForeignFile kLibrary{to_translate("a tool library of at most so many"),
+                               to_translate("a .tools, .json, .csv, .xml or .fctb file"),
                                document::kLargestLibrary};
 
 // A request of the capability, as other commands take one, begins with one of its members;
@@ -84,11 +86,11 @@ ordered_json imported_tools(const ImportToolsArguments& arguments) {
 }
 
 // "assumed: CNMG-12/life and 3 more: The life is not said".
-void tell_remarks(const char* what, const ordered_json& remarks) {
+void tell_remarks(const std::string& what, const ordered_json& remarks) {
   for (const auto& r : remarks) {
     const auto& at = r["at"];
-    std::string line = std::string(what) + ": " + at[0].get<std::string>();
-    if (at.size() > 1) line += " and " + std::to_string(at.size() - 1) + " more";
+    auto line = what + ": " + at[0].get<std::string>();
+    if (at.size() > 1) line += say(" and {} more", at.size() - 1);
     std::cerr << visible(line + ": " + r["text"].get<std::string>()) << '\n';
   }
 }
@@ -98,9 +100,9 @@ void require_new(const fs::path& folder, const std::vector<service::NamedText>& 
   std::vector<Problem> problems;
   for (const auto& file : files)
     if (fs::exists(folder / file.name))
-      problems.push_back({"--out", (folder / file.name).string() + ", which exists",
-                          "a folder without it, or --force to replace it", "file"});
-  if (!problems.empty()) throw InputError("command line", std::move(problems));
+      problems.push_back({"--out", say("{}, which exists", (folder / file.name).string()),
+                          tr("a folder without it, or --force to replace it"), "file"});
+  if (!problems.empty()) throw InputError(tr("command line"), std::move(problems));
 }
 
 // Returns the paths, a line each.
@@ -132,33 +134,36 @@ void run_import_tools(const ImportToolsArguments& arguments) {
     return service::print(text);
   if (!arguments.folder) return;
   service::print(list);
-  tell_remarks("assumed", result["assumed"]);
-  tell_remarks("contradiction", result["contradictions"]);
-  tell_remarks("ignored", result["ignored"]);
+  tell_remarks(tr("assumed"), result["assumed"]);
+  tell_remarks(tr("contradiction"), result["contradictions"]);
+  tell_remarks(tr("ignored"), result["ignored"]);
 }
 
 }  // namespace
 
 void add_import_tools(CLI::App& app,
                       const std::function<void(std::function<void()>)>& chosen) {
-  auto* command =
-      app.add_subcommand("import-tools", service::find_request("import-tools")->summary);
+  auto* command = app.add_subcommand("import-tools",
+                                     tr(service::find_request("import-tools")->summary));
   auto arguments = std::make_shared<ImportToolsArguments>();
   command
-      ->add_option("LIBRARY", arguments->files,
-                   ".tools or .json of Fusion, .csv with symbols of ISO 13399, .xml of "
-                   "MTConnect, .fctb of FreeCAD, several with their .fctl; - reads "
-                   "standard input")
+      ->add_option(
+          "LIBRARY", arguments->files,
+          tr(".tools or .json of Fusion, .csv with symbols of ISO 13399, .xml of "
+             "MTConnect, .fctb of FreeCAD, several with their .fctl; - reads "
+             "standard input"))
       ->required();
-  add_path(*command, "--out", arguments->folder,
-           "write each document to tools/ID.json in this data folder, of taps, reamers "
-           "and countersinks to tools/fixed/ID.json");
-  command->add_flag("--force", arguments->force, "replace files that are there already");
+  add_path(
+      *command, "--out", arguments->folder,
+      tr("write each document to tools/ID.json in this data folder, of taps, reamers "
+         "and countersinks to tools/fixed/ID.json"));
+  command->add_flag("--force", arguments->force,
+                    tr("replace files that are there already"));
   add_path(*command, "-o,--output", arguments->output,
-           "write the result (JSON) here; - is standard output",
+           tr("write the result (JSON) here; - is standard output"),
            Dash::is_standard_output);
   command->add_flag("--json", arguments->json,
-                    "print the result as JSON, with --out too");
+                    tr("print the result as JSON, with --out too"));
   command
       ->add_option_function<std::string>(
           "--groups",
@@ -167,16 +172,17 @@ void add_import_tools(CLI::App& app,
             for (const char letter : letters)
               if (letter != ',') groups.push_back(std::string(1, letter));
           },
-          "ISO 513 groups of tools whose library says none; otherwise P,M,K")
+          tr("ISO 513 groups of tools whose library says none; otherwise P,M,K"))
       ->type_name("P,M,..");
   command
       ->add_option_function<std::string>(
           "--unit",
           [arguments](const std::string& unit) { arguments->members["unit"] = unit; },
-          "unit of a table without column unit: mm or inch; otherwise mm")
+          tr("unit of a table without column unit: mm or inch; otherwise mm"))
       ->type_name("UNIT");
   command->footer(
-      "Examples:\n"
+      tr("Examples:") +
+      "\n"
       "  printf 'insert;RE;KAPR\\nCNMG 120408;0,8;95\\n' | turnwright import-tools -\n"
       "  printf 'id;insert;holder\\nR1;CNMG 432;DCLNL 2525M 12\\n' | turnwright "
       "import-tools - --groups P,K");

@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/say.hpp"
 #include "batch.hpp"
 #include "document/json/file.hpp"
 #include "document/json/parse.hpp"
@@ -23,6 +24,7 @@
 #include "document/response/measured_file.hpp"
 #include "exit.hpp"
 #include "foreign_file.hpp"
+#include "help_words.hpp"
 #include "import.hpp"
 #include "import_tools.hpp"
 #include "mcp.hpp"
@@ -70,11 +72,10 @@ nlohmann::json read_request(const std::string& file) {
   if (file != "-") return document::parse_file(file);
   char none = 0;
   if (::read(STDIN_FILENO, &none, 0) < 0)  // a folder, or closed
-    throw InputError(
-        "standard input",
-        {{"", std::string("nothing: it cannot be read: ") + std::strerror(errno),
-          "a JSON document", "file"}});
-  return document::parse(std::cin, "standard input", document::kLocalLimits);
+    throw InputError(tr("standard input"),
+                     {{"", say("nothing: it cannot be read: {}", std::strerror(errno)),
+                       tr("a JSON document"), "file"}});
+  return document::parse(std::cin, tr("standard input"), document::kLocalLimits);
 }
 
 // "/qif/files/0#line 12" under the name of the file.
@@ -93,7 +94,7 @@ service::Drawn answer(const service::Request& row, const Arguments& arguments,
                       const nlohmann::json& request, const std::string& root,
                       const document::Catalogue& catalogue,
                       const nc::Settings& settings) {
-  ProgressLine line("cuts");
+  ProgressLine line(to_translate("{} of {} cuts, {}/s, {} left"));
   const service::Context context{catalogue,
                                  {},
                                  [&line](std::size_t done, std::size_t all) {
@@ -152,10 +153,10 @@ void write_programs(const fs::path& folder, const nc::Programs& programs,
     files.push_back({kToolTable, nc::tool_table(programs.setups)});
   service::make_folder(folder);
   for (const auto& name : service::replace_files(folder, files, is_of_programs))
-    std::cerr << "removed " << visible((folder / name).string())
-              << ", of an earlier plan\n";
+    std::cerr << say("removed {}, of an earlier plan\n",
+                     visible((folder / name).string()));
   for (const auto& why : programs.cannot)
-    std::cerr << "no NC program: " << visible(why) << '\n';
+    std::cerr << say("no NC program: {}\n", visible(why));
   if (files.empty() && programs.cannot.empty())
     std::cerr << tr("no NC program: there is no feasible plan\n");
 }
@@ -203,8 +204,8 @@ void require_folder(const fs::path& folder) {
        at = at.parent_path())
     if (fs::exists(at, error))
       throw service::OutputError(
-          folder.string() + ": cannot be written: " +
-          std::make_error_code(std::errc::not_a_directory).message());
+          say("{}: cannot be written: {}", folder.string(),
+              std::make_error_code(std::errc::not_a_directory).message()));
 }
 
 /// Checks the outputs before anything is computed.
@@ -215,8 +216,7 @@ void require_places(const Arguments& arguments) {
     for (auto a = all.begin(); a != b; ++a)
       if (collide(*a, *b))
         throw wrong_option(b->option, b->path.string(),
-                           std::string("another place than that of ") + a->option,
-                           "file");
+                           say("another place than that of {}", a->option), "file");
   for (const auto& folder : {arguments.drawings, arguments.programs})
     if (folder) require_folder(*folder);
 }
@@ -253,9 +253,9 @@ void put_program(const nlohmann::ordered_json& result, const Arguments& argument
   }
   if (!setups.empty())
     throw wrong_option("--setup", std::to_string(*arguments.setup),
-                       "a setup with a program: " + setups, "range");
+                       say("a setup with a program: {}", setups), "range");
   for (const auto& why : result["cannot"])
-    std::cerr << "no NC program: " << visible(why.get<std::string>()) << '\n';
+    std::cerr << say("no NC program: {}\n", visible(why.get<std::string>()));
   if (result["cannot"].empty())
     std::cerr << tr("no NC program: there is no feasible plan\n");
 }
@@ -265,10 +265,12 @@ bool is_of_measured_parts(const service::Request& row) {
   return service::request_schema(row) == "learn.request.json";
 }
 
-constexpr ForeignFile kResults{"measurement", "QIF 3.0 file",
+constexpr ForeignFile kResults{to_translate("a measurement of at most so many"),
+                               to_translate("a QIF 3.0 file"),
                                document::kLocalLimits.bytes};
 
-constexpr ForeignFile kMeasured{"table", "table of measured parts",
+constexpr ForeignFile kMeasured{to_translate("a table of at most so many"),
+                                to_translate("a table of measured parts"),
                                 document::kLocalLimits.bytes};
 
 bool is_of_chatter(const service::Request& row) {
@@ -279,9 +281,12 @@ bool is_of_sound(const service::Request& row) {
   return service::request_schema(row) == "listen.request.json";
 }
 
-constexpr ForeignFile kSound{"sound", ".wav file", document::kLargestSound / 4 * 3};
+constexpr ForeignFile kSound{to_translate("a sound of at most so many"),
+                             to_translate("a .wav file"),
+                             document::kLargestSound / 4 * 3};
 
-constexpr ForeignFile kResponse{"measurement", "CSV or universal file",
+constexpr ForeignFile kResponse{to_translate("a measurement of at most so many"),
+                                to_translate("a CSV or universal file"),
                                 document::kLocalLimits.bytes};
 
 /// Puts a file's text into the first entry of "frf" that has no data, or into a new one.
@@ -303,8 +308,8 @@ void add_response(const std::filesystem::path& file, nlohmann::json& request) {
 
 nlohmann::json asked(const Arguments& arguments) {
   if (arguments.file.empty() && !arguments.table && arguments.results.empty())
-    throw wrong_option("REQUEST", "nothing",
-                       "a request document, --csv with a table, or --qif with files",
+    throw wrong_option("REQUEST", tr("nothing"),
+                       tr("a request document, --csv with a table, or --qif with files"),
                        "missing");
   auto request =
       arguments.file.empty() ? nlohmann::json::object() : read_request(arguments.file);
@@ -398,60 +403,61 @@ void add_commands(CLI::App& app, Arguments& arguments, std::function<Exit()>& ch
   for (const auto& row : service::requests()) {
     if (row.name == "import" || row.name == "import-tools" || row.name == "review")
       continue;
-    auto* command = app.add_subcommand(row.name, row.summary);
+    auto* command = app.add_subcommand(row.name, tr(row.summary));
     auto* file = command->add_option("REQUEST", arguments.file,
-                                     "request document; - reads standard input");
+                                     tr("request document; - reads standard input"));
     if (is_of_measured_parts(row)) {
       add_path(*command, "--csv", arguments.table,
-               "table of measured parts, in place of the request's rows");
+               tr("table of measured parts, in place of the request's rows"));
       add_paths(*command, "--qif", arguments.results,
-                "measured results (QIF 3.0), in place of the request's rows")
+                tr("measured results (QIF 3.0), in place of the request's rows"))
           ->allow_extra_args();
       add_path(*command, "--part", arguments.part,
-               "part document, whose tolerances are the characteristics");
+               tr("part document, whose tolerances are the characteristics"));
       command->add_flag("--update", arguments.update,
-                        "also update the factors of the models, and write documents");
+                        tr("also update the factors of the models, and write documents"));
     } else {
       file->required();
     }
     if (is_of_chatter(row))
-      add_paths(*command, "--frf", arguments.responses,
-                "measured response (CSV, universal file) of the next entry of frf; taps "
-                "where that has the key taps");
+      add_paths(
+          *command, "--frf", arguments.responses,
+          tr("measured response (CSV, universal file) of the next entry of frf; taps "
+             "where that has the key taps"));
     if (is_of_sound(row))
       add_path(*command, "--wav", arguments.sound,
-               "sound of the cut, as wav of the request");
+               tr("sound of the cut, as wav of the request"));
     add_path(*command, "-o,--output", arguments.result_file,
-             "write the result (JSON) here; - is standard output",
+             tr("write the result (JSON) here; - is standard output"),
              Dash::is_standard_output);
-    command->add_flag("--json", arguments.json, "print the result as JSON");
+    command->add_flag("--json", arguments.json, tr("print the result as JSON"));
     if (row.drawn)
       add_path(*command, "--drawings", arguments.drawings,
-               "write the result's pictures (SVG) to this folder");
+               tr("write the result's pictures (SVG) to this folder"));
     if (row.drawn && service::request_schema(row) == "part.json") {
       auto* folder = add_path(*command, "--nc", arguments.programs,
-                              "write NC programs to this folder: setup-1.ngc, ..");
+                              tr("write NC programs to this folder: setup-1.ngc, .."));
       for (auto* option : add_nc_options(*command, arguments.nc)) option->needs(folder);
     }
     if (is_for_programs(row)) {
       add_nc_options(*command, arguments.nc);
-      add_number<std::size_t>(*command, "--setup", arguments.setup,
-                              Range<std::size_t>{1, 100},
-                              "print, or write to --output, the program of this setup");
+      add_number<std::size_t>(
+          *command, "--setup", arguments.setup, Range<std::size_t>{1, 100},
+          tr("print, or write to --output, the program of this setup"));
     }
     if (service::request_schema(row) == "quote.request.json")
       add_path(*command, "--xlsx", arguments.card,
-               "write a process card (Excel: prices, routing, ways) here");
+               tr("write a process card (Excel: prices, routing, ways) here"));
     if (row.html)
       add_path(*command, "--report", arguments.report_file,
-               "write the report (HTML, printable) here");
+               tr("write the report (HTML, printable) here"));
     const std::string of_files =
         is_of_measured_parts(row)
             ? "\n  turnwright learn --csv docs/examples/learn/pin.csv --part "
               "docs/examples/guide/pin.json"
             : "";
-    command->footer("Example:\n  echo '" + row.example + "' | turnwright " + row.name +
-                    " -" + of_files);
+    command->footer(tr("Example:") + "\n  echo '" + row.example + "' | turnwright " +
+                    row.name + " -" + of_files);
     command->callback([&row, &arguments, &chosen] {
       chosen = [&row, &arguments] { return run_request(row, arguments); };
     });
@@ -460,18 +466,19 @@ void add_commands(CLI::App& app, Arguments& arguments, std::function<Exit()>& ch
 
 /// Adds `list` and `schema`.
 void add_lists(CLI::App& app, Arguments& arguments, std::function<Exit()>& chosen) {
-  auto* list = app.add_subcommand("list", "ids and names of what a request may refer to");
+  auto* list =
+      app.add_subcommand("list", tr("ids and names of what a request may refer to"));
   list->add_option(
           "WHAT", arguments.listed,
-          "materials, tools, machines, shops, parts or schemas; without it, these")
+          tr("materials, tools, machines, shops, parts or schemas; without it, these"))
       ->check(CLI::IsMember(std::vector<std::string>(kLists.begin(), kLists.end())));
-  list->footer("Example:\n  turnwright list materials");
+  list->footer(tr("Example:") + "\n  turnwright list materials");
   list->callback(
       [&arguments, &chosen] { chosen = [&arguments] { return run_list(arguments); }; });
-  auto* schema = app.add_subcommand("schema", "prints the JSON schema of a document");
+  auto* schema = app.add_subcommand("schema", tr("prints the JSON schema of a document"));
   schema->add_option("NAME", arguments.listed,
-                     "a name that `list schemas` shows; without it, these");
-  schema->footer("Example:\n  turnwright schema part");
+                     tr("a name that `list schemas` shows; without it, these"));
+  schema->footer(tr("Example:") + "\n  turnwright schema part");
   schema->callback([&arguments, &chosen] {
     chosen = [&arguments] {
       if (arguments.listed.empty()) {
@@ -497,16 +504,17 @@ Exit run_new(const Arguments& arguments) {
   }
   if (fs::exists(*arguments.result_file))
     throw wrong_option("--output", arguments.result_file->string(),
-                       "a file that is not there yet", "exists");
+                       tr("a file that is not there yet"), "exists");
   service::write_file(*arguments.result_file, text);
   return kOk;
 }
 
 void add_new(CLI::App& app, Arguments& arguments, std::function<Exit()>& chosen) {
-  auto* command = app.add_subcommand("new", "a first part document to change and plan");
+  auto* command =
+      app.add_subcommand("new", tr("a first part document to change and plan"));
   add_path(*command, "-o,--output", arguments.result_file,
-           "write it here; - is standard output", Dash::is_standard_output);
-  command->footer("Example:\n  turnwright new | turnwright plan -");
+           tr("write it here; - is standard output"), Dash::is_standard_output);
+  command->footer(tr("Example:") + "\n  turnwright new | turnwright plan -");
   command->callback(
       [&arguments, &chosen] { chosen = [&arguments] { return run_new(arguments); }; });
 }
@@ -521,8 +529,8 @@ void refuse_unknown(const CLI::App& app) {
       commands.push_back(command->get_name());
     const auto near = document::nearest(word, commands);
     throw wrong_option("COMMAND", '"' + word + '"',
-                       near.empty() ? "a command; turnwright --help names all"
-                                    : "a command (did you mean \"" + near + "\"?)",
+                       near.empty() ? tr("a command; turnwright --help names all")
+                                    : say("a command (did you mean \"{}\"?)", near),
                        "choice");
   }
 }
@@ -555,28 +563,29 @@ void speak_as_asked(int argc, char** argv) {
 int run(int argc, char** argv) {
   speak_as_asked(argc, argv);
   CLI::App app(
-      "Plans turned parts: certified cheapest conditions inside every tolerance.",
+      tr("Plans turned parts: certified cheapest conditions inside every tolerance."),
       "turnwright");
   app.set_version_flag("--version", std::string(service::version()));
   app.require_subcommand(1);
   Arguments arguments;
   app.fallthrough();
-  add_path(app, "--data", arguments.data, "folder with materials/, tools/ and machines/");
+  add_path(app, "--data", arguments.data,
+           tr("folder with materials/, tools/ and machines/"));
   std::string language;  // heard by speak_as_asked()
-  app.add_option("--language", language, "of help, messages and reports: en or de")
+  app.add_option("--language", language, tr("of help, messages and reports: en or de"))
       ->default_str("en");
-  std::string examples =
-      "Examples:\n  turnwright new\n  turnwright list parts\n"
-      "  turnwright schema part\n"
-      "  turnwright batch --help\n  turnwright serve --help\n"
-      "  turnwright mcp --help\n";
+  std::string examples = tr("Examples:") +
+                         "\n  turnwright new\n  turnwright list parts\n"
+                         "  turnwright schema part\n"
+                         "  turnwright batch --help\n  turnwright serve --help\n"
+                         "  turnwright mcp --help\n";
   for (const auto& row : service::requests())
     examples += "  turnwright " + row.name + " --help\n";
   app.footer(
-      "Exit codes: 0 done, 1 no feasible plan, 2 wrong input, 3 outside a model's "
-      "range,\n"
-      "or no NC program can be made, 70 internal error, 74 result not written.\n" +
-      examples);
+      tr("Exit codes: 0 done, 1 no feasible plan, 2 wrong input, 3 outside a model's "
+         "range,\n"
+         "or no NC program can be made, 70 internal error, 74 result not written.") +
+      '\n' + examples);
   std::function<Exit()> chosen;
   add_commands(app, arguments, chosen);
   add_lists(app, arguments, chosen);
@@ -593,6 +602,7 @@ int run(int argc, char** argv) {
   add_batch(app, arguments.data, choose);
   add_serve(app, arguments.data, choose);
   add_mcp(app, arguments.data, choose);
+  speak_in_help(app);
   if (argc == 1) {
     service::print(app.help());
     return kOk;
@@ -624,7 +634,7 @@ int main(int argc, char** argv) {
     std::cerr << visible(e.what()) << '\n';
     return app::kOutput;
   } catch (const std::exception& e) {
-    std::cerr << "internal error: " << visible(e.what()) << '\n';
+    std::cerr << say("internal error: {}\n", visible(e.what()));
     return app::kInternal;
   }
 }

@@ -15,6 +15,7 @@
 #include "service/mcp/mcp_server.hpp"
 #include "service/output.hpp"
 #include "turnwright/base/errors.hpp"
+#include "turnwright/base/language.hpp"
 #include "turnwright/document/catalogue.hpp"
 
 namespace turnwright::app {
@@ -36,7 +37,8 @@ void serve_lines(double deadline_s, const std::optional<std::filesystem::path>& 
   service::mcp::Server server(
       folder, catalogue, send_line,
       {.deadline = std::chrono::milliseconds(static_cast<long>(1e3 * deadline_s))});
-  service::BatchInput input(::fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 0), "standard input");
+  service::BatchInput input(::fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 0),
+                            tr("standard input"));
   for (std::string line; input.next(line);)
     if (line.find_first_not_of(" \t\r") != std::string::npos) server.receive(line);
 }
@@ -46,15 +48,17 @@ void serve_lines(double deadline_s, const std::optional<std::filesystem::path>& 
 void add_mcp(CLI::App& app, const std::optional<std::filesystem::path>& data,
              const std::function<void(std::function<void()>)>& chosen) {
   auto* command = app.add_subcommand(
-      "mcp", "answer a language model over standard input and output (MCP)");
+      "mcp", tr("answer a language model over standard input and output (MCP)"));
   auto deadline_s = std::make_shared<double>(60);
   add_number<double>(*command, "--deadline", *deadline_s, {0.001, 86'400},
-                     "seconds that one call may take");
+                     tr("seconds that one call may take"));
   command->footer(
-      "For the configuration of a client:\n"
+      tr("For the configuration of a client:") +
+      "\n"
       "  {\"mcpServers\": {\"turnwright\": {\"command\": \"turnwright\", \"args\": "
-      "[\"mcp\"]}}}\n"
-      "Example:\n"
+      "[\"mcp\"]}}}\n" +
+      tr("Example:") +
+      "\n"
       "  echo '{\"jsonrpc\": \"2.0\", \"id\": 1, \"method\": \"tools/list\"}' | "
       "turnwright "
       "mcp");

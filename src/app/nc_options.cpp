@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/say.hpp"
 #include "options.hpp"
 #include "turnwright/document/nc.hpp"
 
@@ -33,7 +34,7 @@ json shop_tool(const std::string& text) {
     good = good && offset;
   }
   if (!good)
-    throw wrong_option("--tool", '"' + text + '"', "ID=NUMBER or ID=NUMBER:OFFSET",
+    throw wrong_option("--tool", '"' + text + '"', tr("ID=NUMBER or ID=NUMBER:OFFSET"),
                        "text");
   return tool;
 }
@@ -49,7 +50,7 @@ std::string control_ids() {
 void add_milling_code(json& settings, const std::string& text) {
   const auto equals = text.find('=');
   if (equals == text.npos || equals == 0)
-    throw wrong_option("--milling", '"' + text + '"', "NAME=CODE", "text");
+    throw wrong_option("--milling", '"' + text + '"', tr("NAME=CODE"), "text");
   settings["milling"][text.substr(0, equals)] = text.substr(equals + 1);
 }
 
@@ -67,7 +68,7 @@ std::vector<CLI::Option*> add_nc_options(CLI::App& command, json& settings) {
     all.push_back(command.add_flag_callback(
         option_of(key), [&settings, key] { settings[key] = true; }, help));
   };
-  text("control", "the programs' control: " + control_ids());
+  text("control", say("the programs' control: {}", control_ids()));
   all.push_back(command
                     .add_option_function<std::string>(
                         "--program-number",
@@ -75,20 +76,20 @@ std::vector<CLI::Option*> add_nc_options(CLI::App& command, json& settings) {
                           const auto number = number_in(word, kNumbers);
                           if (!number)
                             throw wrong_option("--program-number", '"' + word + '"',
-                                               "an integer from 1 to 99999", "range");
+                                               tr("an integer from 1 to 99999"), "range");
                           settings["program_number"] = *number;
                         },
-                        "number of the first setup's program; the others count on")
+                        tr("number of the first setup's program; the others count on"))
                     ->type_name("N"));
-  text("work_offset", "work offset, G54 unless given");
-  text("block_numbers", "which blocks have numbers: none, tools, all");
-  text("spindle", "M3 or M4: the spindle's sense while turning");
-  text("coolant", "the code that turns the coolant on, or off");
-  flag("optional_stops", "M1 before each change of the tool");
+  text("work_offset", tr("work offset, G54 unless given"));
+  text("block_numbers", tr("which blocks have numbers: none, tools, all"));
+  text("spindle", tr("M3 or M4: the spindle's sense while turning"));
+  text("coolant", tr("the code that turns the coolant on, or off"));
+  flag("optional_stops", tr("M1 before each change of the tool"));
   flag("reference_returns",
-       "to the reference position at both ends and before each change of the tool");
-  flag("cycles", "threads by the control's own cycle");
-  flag("drill_cycles", "holes by the control's own cycles");
+       tr("to the reference position at both ends and before each change of the tool"));
+  flag("cycles", tr("threads by the control's own cycle"));
+  flag("drill_cycles", tr("holes by the control's own cycles"));
   all.push_back(command
                     .add_option_function<std::vector<std::string>>(
                         "--tool",
@@ -96,7 +97,7 @@ std::vector<CLI::Option*> add_nc_options(CLI::App& command, json& settings) {
                           for (const auto& tool : tools)
                             settings["tools"].push_back(shop_tool(tool));
                         },
-                        "the shop's number of a tool, ID=NUMBER or ID=NUMBER:OFFSET")
+                        tr("the shop's number of a tool, ID=NUMBER or ID=NUMBER:OFFSET"))
                     ->type_name("WORD"));
   all.push_back(command
                     .add_option_function<std::vector<std::string>>(
@@ -104,15 +105,15 @@ std::vector<CLI::Option*> add_nc_options(CLI::App& command, json& settings) {
                         [&settings](const std::vector<std::string>& codes) {
                           for (const auto& code : codes) add_milling_code(settings, code);
                         },
-                        "a code of the axis C or the driven tools, c_axis_on=CODE, "
-                        "c_axis_off, lock, unlock, tool_on (with {S}), tool_off")
+                        tr("a code of the axis C or the driven tools, c_axis_on=CODE, "
+                           "c_axis_off, lock, unlock, tool_on (with {S}), tool_off"))
                     ->type_name("WORD"));
   return all;
 }
 
 nc::Settings nc_settings(const json& settings) {
   try {
-    return document::load_nc_settings(settings, "command line");
+    return document::load_nc_settings(settings, tr("command line"));
   } catch (const InputError& e) {
     auto problems = e.problems();
     for (auto& problem : problems) {

@@ -10,15 +10,24 @@
 #include <type_traits>
 #include <vector>
 
+#include "base/say.hpp"
 #include "turnwright/base/errors.hpp"
 
 /// Values of options: one rule for every number, and one for every file and folder.
 namespace turnwright::app {
 
+/// A number as messages and the help have it.
+template <class Number>
+std::string written(Number number) {
+  std::ostringstream text;
+  text << number;
+  return text.str();
+}
+
 /// An error in which the command line is the document and the option the place in it.
 inline InputError wrong_option(const std::string& option, const std::string& got,
                                const std::string& expected, const std::string& code) {
-  return {"command line", {{option, got, expected, code}}};
+  return {tr("command line"), {{option, got, expected, code}}};
 }
 
 template <class Number>
@@ -45,10 +54,12 @@ CLI::Option* add_number(CLI::App& app, const std::string& option, Value& value,
   const auto put = [&value, option, range](const std::string& text) {
     const auto number = number_in(text, range);
     if (!number) {
-      std::ostringstream expected;
-      expected << (std::is_integral_v<Number> ? "an integer" : "a number") << " from "
-               << range.least << " to " << range.most;
-      throw wrong_option(option, '"' + text + '"', expected.str(), "range");
+      const auto least = written(range.least), most = written(range.most);
+      throw wrong_option(option, '"' + text + '"',
+                         std::is_integral_v<Number>
+                             ? say("an integer from {} to {}", least, most)
+                             : say("a number from {} to {}", least, most),
+                         "range");
     }
     value = *number;
   };
@@ -60,10 +71,8 @@ CLI::Option* add_number(CLI::App& app, const std::string& option, Value& value,
 template <class Number>
 CLI::Option* add_number(CLI::App& app, const std::string& option, Number& value,
                         const Range<Number>& range, const std::string& help) {
-  std::ostringstream usual;
-  usual << value;
   return add_number<Number, Number>(app, option, value, range, help)
-      ->default_str(usual.str());
+      ->default_str(written(value));
 }
 
 enum class Dash { is_no_name, is_standard_output };
@@ -73,7 +82,7 @@ inline std::filesystem::path path_of(const std::string& names, const std::string
                                      Dash dash) {
   if (text.empty() || (text == "-" && dash == Dash::is_no_name))
     throw wrong_option(names.substr(names.rfind(',') + 1), '"' + text + '"',
-                       "a name in the file system (./- for one that is called -)",
+                       tr("a name in the file system (./- for one that is called -)"),
                        "file");
   return text;
 }

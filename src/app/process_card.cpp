@@ -1,6 +1,5 @@
 #include "process_card.hpp"
 
-#include <fmt/format.h>
 #include <unistd.h>
 #include <xlsxwriter.h>
 
@@ -13,6 +12,7 @@
 #include <memory>
 #include <span>
 
+#include "base/say.hpp"
 #include "service/output.hpp"
 
 namespace turnwright::app {
@@ -38,7 +38,7 @@ class Scratch {
 
   const std::string& name() const { return name_; }
   [[noreturn]] void fail(const std::string& why) const {
-    throw service::OutputError(name_ + ": cannot be written: " + why);
+    throw service::OutputError(say("{}: cannot be written: {}", name_, why));
   }
 
  private:
@@ -51,32 +51,33 @@ struct Column {
   const char* pointer;
 };
 
-constexpr std::array kPrices{Column{"Part", 24, "/part"},
-                             Column{"Made by", 36, "/made_by"},
-                             Column{"Batch", 8, "/batch"},
-                             Column{"Price", 10, "/price"},
-                             Column{"Stock", 10, "/stock"},
-                             Column{"Run", 10, "/run"},
-                             Column{"Setting up", 10, "/setting_up"},
-                             Column{"Scrap", 10, "/scrap"},
-                             Column{"Overhead", 10, "/overhead"},
-                             Column{"Margin", 10, "/margin"},
-                             Column{"Minutes", 10, "/time_min"},
-                             Column{"Least cost proved", 18, "/lower_bound"}};
-constexpr std::array kRouting{Column{"Part", 24, "/part"},
-                              Column{"Made by", 36, "/made_by"},
-                              Column{"Operation", 10, "/operation"},
-                              Column{"Machine", 16, "/machine"},
-                              Column{"Description", 44, "/description"},
-                              Column{"Setting up, min", 16, "/setup_min"},
-                              Column{"Run, min", 10, "/run_min"}};
-constexpr std::array kWays{Column{"Part", 24, "/part"},
-                           Column{"Made by", 36, "/made_by"},
-                           Column{"Proved", 8, "/proved"},
-                           Column{"Stock, kg", 10, "/stock_kg"},
-                           Column{"Conforming", 12, "/conforming"},
-                           Column{"Energy, kWh", 12, "/energy/kWh"},
-                           Column{"CO2, kg", 10, "/energy/kg_CO2"}};
+constexpr std::array kPrices{
+    Column{to_translate("Part"), 24, "/part"},
+    Column{to_translate("Made by"), 36, "/made_by"},
+    Column{to_translate("Batch"), 8, "/batch"},
+    Column{to_translate("Price"), 10, "/price"},
+    Column{to_translate("Stock"), 10, "/stock"},
+    Column{to_translate("Run"), 10, "/run"},
+    Column{to_translate("Setting up"), 10, "/setting_up"},
+    Column{to_translate("Scrap"), 10, "/scrap"},
+    Column{to_translate("Overhead"), 10, "/overhead"},
+    Column{to_translate("Margin"), 10, "/margin"},
+    Column{to_translate("Minutes"), 10, "/time_min"},
+    Column{to_translate("Least cost proved"), 18, "/lower_bound"}};
+constexpr std::array kRouting{Column{to_translate("Part"), 24, "/part"},
+                              Column{to_translate("Made by"), 36, "/made_by"},
+                              Column{to_translate("Operation"), 10, "/operation"},
+                              Column{to_translate("Machine"), 16, "/machine"},
+                              Column{to_translate("Description"), 44, "/description"},
+                              Column{to_translate("Setting up, min"), 16, "/setup_min"},
+                              Column{to_translate("Run, min"), 10, "/run_min"}};
+constexpr std::array kWays{Column{to_translate("Part"), 24, "/part"},
+                           Column{to_translate("Made by"), 36, "/made_by"},
+                           Column{to_translate("Proved"), 8, "/proved"},
+                           Column{to_translate("Stock, kg"), 10, "/stock_kg"},
+                           Column{to_translate("Conforming"), 12, "/conforming"},
+                           Column{to_translate("Energy, kWh"), 12, "/energy/kWh"},
+                           Column{to_translate("CO2, kg"), 10, "/energy/kg_CO2"}};
 
 // The rows of one list of every part, each with the name of its part.
 ordered_json rows_of(const ordered_json& quote, const char* list) {
@@ -93,10 +94,10 @@ class Card {
  public:
   Card(const Scratch& file, const std::string& currency)
       : file_(file), book_(workbook_new(file.name().c_str()), lxw_workbook_free) {
-    if (!book_) file.fail("no memory");
+    if (!book_) file.fail(tr("no memory"));
     lxw_doc_properties about{};
-    std::string title = "Process card";
-    if (!currency.empty()) title += ", prices in " + currency;
+    auto title = currency.empty() ? tr("Process card")
+                                  : say("Process card, prices in {}", currency);
     about.title = title.data();
     about.created = 1;  // not the clock's: equal quotes are equal files
     workbook_set_properties(book_.get(), &about);
@@ -108,14 +109,14 @@ class Card {
   Card(const Card&) = delete;
   Card& operator=(const Card&) = delete;
 
-  void add_sheet(const char* name, std::span<const Column> columns,
+  void add_sheet(const std::string& name, std::span<const Column> columns,
                  const ordered_json& rows) {
-    auto* sheet = workbook_add_worksheet(book_.get(), name);
+    auto* sheet = workbook_add_worksheet(book_.get(), name.c_str());
     worksheet_freeze_panes(sheet, 1, 0);
     lxw_col_t at = 0;
     for (const auto& column : columns) {
       worksheet_set_column(sheet, at, at, column.width, nullptr);
-      worksheet_write_string(sheet, 0, at, column.heading, bold_);
+      worksheet_write_string(sheet, 0, at, tr(column.heading).c_str(), bold_);
       lxw_row_t row = 0;
       for (const auto& values : rows) put(sheet, ++row, at, values, column.pointer);
       ++at;
@@ -154,9 +155,9 @@ class Card {
 std::string process_card(const ordered_json& quote) {
   const Scratch file;
   Card card(file, quote.value("currency", ""));
-  card.add_sheet("Prices", kPrices, rows_of(quote, "prices"));
-  card.add_sheet("Routing", kRouting, quote["routing"]);
-  card.add_sheet("Ways", kWays, rows_of(quote, "ways"));
+  card.add_sheet(tr("Prices"), kPrices, rows_of(quote, "prices"));
+  card.add_sheet(tr("Routing"), kRouting, quote["routing"]);
+  card.add_sheet(tr("Ways"), kWays, rows_of(quote, "ways"));
   card.close();
   std::ifstream in(file.name(), std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};

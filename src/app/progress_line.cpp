@@ -1,9 +1,11 @@
 #include "progress_line.hpp"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cstdio>
-#include <utility>
+
+#include "turnwright/base/language.hpp"
 
 namespace turnwright::app {
 namespace {
@@ -19,8 +21,8 @@ std::string duration(double seconds) {
 
 }  // namespace
 
-ProgressLine::ProgressLine(std::string what)
-    : what_(std::move(what)),
+ProgressLine::ProgressLine(const char* line)
+    : line_(line),
       terminal_(::isatty(STDERR_FILENO) == 1),
       begun_(steady_clock::now()),
       told_(begun_) {}
@@ -37,10 +39,10 @@ void ProgressLine::tell(std::int64_t found, std::int64_t done, std::int64_t all)
   const double rate =
       static_cast<double>(done) / std::chrono::duration<double>(time - begun_).count();
   const auto gone = found + done;
-  std::fprintf(stderr, "\r%lld of %lld %s, %.*f/s, %s left\033[K",
-               static_cast<long long>(gone), static_cast<long long>(all), what_.c_str(),
-               rate < 10 ? 2 : 0, rate,
-               duration(static_cast<double>(all - gone) / rate).c_str());
+  const auto told = fmt::format(fmt::runtime(translated(line_)), gone, all,
+                                fmt::format("{:.{}f}", rate, rate < 10 ? 2 : 0),
+                                duration(static_cast<double>(all - gone) / rate));
+  std::fputs(("\r" + told + "\033[K").c_str(), stderr);
 }
 
 }  // namespace turnwright::app

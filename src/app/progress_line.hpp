@@ -8,8 +8,9 @@ namespace turnwright::app {
 /// A line on standard error that is rewritten as work proceeds, if that is a terminal.
 class ProgressLine {
  public:
-  /// @param what  the items that are counted, for example "lines".
-  explicit ProgressLine(std::string what);
+  /// @param line  in English, "{} of {} lines, {}/s, {} left": how many items of all, how
+  ///   many a second, the time that is left.
+  explicit ProgressLine(const char* line);
   ~ProgressLine();
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
@@ -18,7 +19,7 @@ class ProgressLine {
   void tell(std::int64_t found, std::int64_t done, std::int64_t all);
 
  private:
-  std::string what_;
+  const char* line_;
   bool terminal_ = false;
   std::chrono::steady_clock::time_point begun_, told_;
 };

@@ -11,6 +11,7 @@
 #include "service/output.hpp"
 #include "service/requests.hpp"
 #include "terminal.hpp"
+#include "turnwright/base/language.hpp"
 
 namespace turnwright::app {
 namespace {
@@ -28,7 +29,8 @@ struct ReviewArguments {
   bool json = false;
 };
 
-constexpr ForeignFile kProgram{"program", "NC program", 2'000'000};
+constexpr ForeignFile kProgram{to_translate("a program of at most so many"),
+                               to_translate("a NC program"), 2'000'000};
 
 // "2=DRILL-HM-5D 19 mm".
 json numbered_tool(const std::string& text) {
@@ -36,14 +38,14 @@ json numbered_tool(const std::string& text) {
   const auto number =
       number_in(text.substr(0, std::min(equals, text.size())), Range<int>{0, 9999});
   if (equals == text.npos || !number || equals + 1 == text.size())
-    throw wrong_option("--tool", '"' + text + '"', "a number, = and an id", "format");
+    throw wrong_option("--tool", '"' + text + '"', tr("a number, = and an id"), "format");
   return {{"number", *number}, {"id", text.substr(equals + 1)}};
 }
 
 json request_of(const ReviewArguments& arguments) {
   if (!arguments.part) {
     if (arguments.files.size() > 1)
-      throw wrong_option("--part", "nothing", "the part document of the programs",
+      throw wrong_option("--part", tr("nothing"), tr("the part document of the programs"),
                          "missing");
     return document::parse(read_foreign_file(arguments.files[0], kProgram),
                            name_of_foreign_file(arguments.files[0]),
@@ -73,7 +75,7 @@ nlohmann::ordered_json answered(const service::Request& row, const json& request
     auto problems = e.problems();
     for (auto& p : problems)
       if (p.pointer.starts_with("/tools/")) p.pointer = "--tool";
-    throw InputError("command line", std::move(problems));
+    throw InputError(tr("command line"), std::move(problems));
   }
 }
 
@@ -102,10 +104,11 @@ void refuse_to_overwrite(const ReviewArguments& arguments) {
     const bool own =
         file != "-" && fs::equivalent(*arguments.corrected / name, file, none);
     if (own || !names.insert(name).second)
-      throw wrong_option("--corrected", '"' + arguments.corrected->string() + '"',
-                         "a folder other than that of the programs, which have names of "
-                         "their own",
-                         "exists");
+      throw wrong_option(
+          "--corrected", '"' + arguments.corrected->string() + '"',
+          tr("a folder other than that of the programs, which have names of "
+             "their own"),
+          "exists");
   }
 }
 
@@ -134,38 +137,42 @@ void run(const ReviewArguments& arguments, const std::optional<fs::path>& data) 
 void add_review(CLI::App& app, const std::optional<fs::path>& data,
                 const std::function<void(std::function<void()>)>& chosen) {
   const auto& row = *service::find_request("review");
-  auto* command = app.add_subcommand("review", row.summary);
+  auto* command = app.add_subcommand("review", tr(row.summary));
   auto arguments = std::make_shared<ReviewArguments>();
   command
       ->add_option("PROGRAM", arguments->files,
-                   "NC programs of the part's setups in their order; without --part a "
-                   "request document, - reads standard input")
+                   tr("NC programs of the part's setups in their order; without --part a "
+                      "request document, - reads standard input"))
       ->required();
-  add_path(*command, "--part", arguments->part, "part document of the programs");
+  add_path(*command, "--part", arguments->part, tr("part document of the programs"));
   command
-      ->add_option("--control", arguments->control,
-                   "control that the programs are for: linuxcnc, fanuc, fanuc-b, haas, "
-                   "siemens-iso, siemens, okuma")
+      ->add_option(
+          "--control", arguments->control,
+          tr("control that the programs are for: linuxcnc, fanuc, fanuc-b, haas, "
+             "siemens-iso, siemens, okuma"))
       ->type_name("NAME");
   add_number(*command, "--setup", arguments->setup, Range<std::size_t>{1, 10},
-             "setup of the first program");
-  add_number(*command, "--zero", arguments->zero_mm, Range<double>{-1e4, 1e4},
-             "place of the programs' zero, from the finished face of the free end [mm]");
+             tr("setup of the first program"));
+  add_number(
+      *command, "--zero", arguments->zero_mm, Range<double>{-1e4, 1e4},
+      tr("place of the programs' zero, from the finished face of the free end [mm]"));
   command
-      ->add_option("--tool", arguments->tools,
-                   "a tool's number and id, 1=PCLNL-CNMG120408-PM; of drills and blades "
-                   "with their size, \"2=DRILL-HM-5D 19 mm\"; once for each tool")
+      ->add_option(
+          "--tool", arguments->tools,
+          tr("a tool's number and id, 1=PCLNL-CNMG120408-PM; of drills and blades "
+             "with their size, \"2=DRILL-HM-5D 19 mm\"; once for each tool"))
       ->allow_extra_args(false)
       ->type_name("N=ID");
-  add_path(*command, "--corrected", arguments->corrected,
-           "write the programs with words F and S changed to the least cost of their own "
-           "passes to this folder");
+  add_path(
+      *command, "--corrected", arguments->corrected,
+      tr("write the programs with words F and S changed to the least cost of their own "
+         "passes to this folder"));
   add_path(*command, "-o,--output", arguments->output,
-           "write the result (JSON) here; - is standard output",
+           tr("write the result (JSON) here; - is standard output"),
            Dash::is_standard_output);
-  command->add_flag("--json", arguments->json, "print the result as JSON");
+  command->add_flag("--json", arguments->json, tr("print the result as JSON"));
   // Unlike echo, printf leaves the line ends of the program as they are written.
-  command->footer("Examples:\n  printf '%s' '" + row.example +
+  command->footer(tr("Examples:") + "\n  printf '%s' '" + row.example +
                   "' | turnwright review -\n  turnwright nc parts/pump-shaft.json "
                   "--setup 1 | turnwright review - --part parts/pump-shaft.json");
   command->callback([arguments, &data, chosen] {

@@ -12,6 +12,7 @@
 #include "service/log.hpp"
 #include "service/output.hpp"
 #include "turnwright/base/errors.hpp"
+#include "turnwright/base/language.hpp"
 #include "turnwright/document/catalogue.hpp"
 
 namespace turnwright::app {
@@ -47,7 +48,7 @@ std::unique_ptr<service::JobStore> open_jobs(const std::optional<fs::path>& aske
       return std::make_unique<service::JobStore>(*asked, data);
     } catch (const std::runtime_error& error) {
       throw wrong_option("--jobs", error.what(),
-                         "a job store of this version that no other process has open",
+                         tr("a job store of this version that no other process has open"),
                          "file");
     }
   const auto file = usual_job_file();
@@ -67,7 +68,7 @@ service::HttpApi::Page page_of(const fs::path& folder) {
     std::ifstream in(file, std::ios::binary);
     if (!in)
       throw InputError(file.string(),
-                       {{"", "nothing that can be read", "the page", "file"}});
+                       {{"", tr("nothing that can be read"), tr("the page"), "file"}});
     return {std::istreambuf_iterator<char>(in), {}};
   };
   read();  // errors are reported at the start
@@ -110,38 +111,39 @@ void serve(ServeArguments arguments, const std::optional<fs::path>& data) {
 
 void add_serve(CLI::App& app, const std::optional<fs::path>& data,
                const std::function<void(std::function<void()>)>& chosen) {
-  auto* command = app.add_subcommand("serve", "answer requests over HTTP");
+  auto* command = app.add_subcommand("serve", tr("answer requests over HTTP"));
   auto arguments = std::make_shared<ServeArguments>();
   auto& options = arguments->options;
-  command->add_option("--address", options.address, "numeric address to listen on")
+  command->add_option("--address", options.address, tr("numeric address to listen on"))
       ->capture_default_str();
   add_number<std::uint16_t>(*command, "--port", options.port, {0, 65'535},
-                            "port to listen on; 0: any free one");
+                            tr("port to listen on; 0: any free one"));
   add_path(*command, "--keys", arguments->keys,
-           "file of bearer keys, one a line; needed for addresses that other machines "
-           "reach");
+           tr("file of bearer keys, one a line; needed for addresses that other machines "
+              "reach"));
   add_path(*command, "--jobs", arguments->jobs,
-           "file that keeps the batches (default: turnwright/jobs.sqlite in "
-           "$XDG_STATE_HOME)");
+           tr("file that keeps the batches (default: turnwright/jobs.sqlite in "
+              "$XDG_STATE_HOME)"));
   add_path(*command, "--page", arguments->page,
-           "folder of another page, index.html, read anew for every answer");
+           tr("folder of another page, index.html, read anew for every answer"));
   add_number<unsigned>(*command, "--threads", options.threads, {0, 1024},
-                       "threads that compute; 0: one a core");
+                       tr("threads that compute; 0: one a core"));
   add_number<unsigned>(*command, "--batch-threads", arguments->batch_threads, {1, 1024},
-                       "threads that work on batches");
+                       tr("threads that work on batches"));
   add_number<std::size_t>(*command, "--queue", options.queue, {0, 1'000'000},
-                          "calls that may wait for a thread; more are answered 503");
+                          tr("calls that may wait for a thread; more are answered 503"));
   add_number<std::size_t>(*command, "--connections", options.connections, {1, 1'000'000},
-                          "connections open at once");
+                          tr("connections open at once"));
   add_number<std::size_t>(*command, "--body-memory", arguments->body_memory_MB,
                           {4, 1'000'000},
-                          "MB that bodies and answers of all calls may take together; "
-                          "more are answered 503");
+                          tr("MB that bodies and answers of all calls may take together; "
+                             "more are answered 503"));
   add_number<double>(*command, "--deadline", arguments->deadline_s, {0.001, 86'400},
-                     "seconds a call may be computed; then it is answered 504");
+                     tr("seconds a call may be computed; then it is answered 504"));
   command->footer(
-      "Stops on SIGTERM or SIGINT, when every call that has arrived is answered.\n"
-      "Examples:\n  turnwright serve --port 8080\n"
+      tr("Stops on SIGTERM or SIGINT, when every call that has arrived is answered.") +
+      '\n' + tr("Examples:") +
+      "\n  turnwright serve --port 8080\n"
       "  curl http://127.0.0.1:8080/v1/parts\n"
       "  curl -H 'Content-Type: application/json' --data @part.json "
       "http://127.0.0.1:8080/v1/plan");

@@ -5,6 +5,7 @@
 #include "document/json/finite.hpp"
 #include "requests.hpp"
 #include "turnwright/base/cancelled.hpp"
+#include "turnwright/base/language.hpp"
 
 namespace turnwright::service {
 
@@ -64,7 +65,7 @@ Drawn drawn_answer(const Request& row, const nlohmann::json& request,
 std::string html_report(const Request& row, const nlohmann::json& request,
                         const Drawn& drawn) {
   if (!row.html) throw std::domain_error("html_report: " + row.name + " has no report");
-  return row.html(request.value("name", "part"), drawn);
+  return row.html(request.value("name", tr("part")), drawn);
 }
 
 bool infeasible(const nlohmann::ordered_json& result) {

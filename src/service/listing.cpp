@@ -10,6 +10,7 @@
 #include "document/json/reference.hpp"
 #include "requests.hpp"
 #include "turnwright/base/errors.hpp"
+#include "turnwright/base/language.hpp"
 
 namespace turnwright::service {
 namespace {
@@ -86,9 +87,10 @@ std::string schema(const std::filesystem::path& folder, const std::string& name)
   std::vector<std::string> ids;
   for (const auto& entry : list_schemas(folder)) ids.push_back(entry.id);
   if (std::find(ids.begin(), ids.end(), id) == ids.end())
-    throw InputError("command line",
-                     {{"NAME", '"' + name + '"',
-                       document::expected_reference(name, ids, "a schema"), "choice"}});
+    throw InputError(
+        tr("command line"),
+        {{"NAME", '"' + name + '"',
+          document::expected_reference(name, ids, tr("a schema")), "choice"}});
   return schema_text(folder, id);
 }
 

@@ -15,6 +15,7 @@
 #include <set>
 #include <system_error>
 
+#include "base/say.hpp"
 #include "turnwright/base/errors.hpp"
 
 namespace turnwright::service {
@@ -23,7 +24,8 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const fs::path& file, int error) {
-  throw OutputError(file.string() + ": cannot be written: " + std::strerror(error));
+  throw OutputError(
+      say("{}: cannot be written: {}", file.string(), std::strerror(error)));
 }
 
 bool write_all(int descriptor, std::string_view text) {
@@ -63,7 +65,8 @@ fs::path resolved(const fs::path& file) {
 void remove_file(const fs::path& file) {
   std::error_code error;
   fs::remove(file, error);
-  if (error) throw OutputError(file.string() + ": cannot be removed: " + error.message());
+  if (error)
+    throw OutputError(say("{}: cannot be removed: {}", file.string(), error.message()));
 }
 
 }  // namespace
@@ -159,8 +162,7 @@ void print(const std::string& text, std::string (*style)(std::string_view)) {
   errno = 0;
   std::cout << shown << std::flush;
   if (!std::cout)
-    throw OutputError(std::string("standard output cannot be written: ") +
-                      std::strerror(errno));
+    throw OutputError(say("standard output cannot be written: {}", std::strerror(errno)));
 }
 
 }  // namespace turnwright::service

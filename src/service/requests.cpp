@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/say.hpp"
 #include "document/exchange/outline.hpp"
 #include "report/page/html.hpp"
 #include "report/page/stability_html.hpp"
@@ -254,7 +255,9 @@ Planned planned(document::Candidates&& all,
   auto choice = planning::choose(candidates, judge);
   for (const auto& [name, why] : all.refused)
     choice.plan.alternatives.push_back(
-        {.name = name, .why = why, .sentence = name + ": cannot be planned: " + why});
+        {.name = name,
+         .why = why,
+         .sentence = say("{}: cannot be planned: {}", name, why)});
   return {std::move(all.usable[choice.chosen].document), std::move(choice.plan)};
 }
 
@@ -508,78 +511,95 @@ constexpr const char* kPredictExample = R"({
 
 std::span<const Request> requests() {
   static const std::vector<Request> kTable{
-      {"plan", "part plan -> certified cheapest process plan", kPlanExample, plan,
-       report::text, drawn_plan, plan_report},
-      {"predict", "part plan with conditions given -> deviations and verdicts",
+      {"plan", to_translate("part plan -> certified cheapest process plan"), kPlanExample,
+       plan, report::text, drawn_plan, plan_report},
+      {"predict",
+       to_translate("part plan with conditions given -> deviations and verdicts"),
        kPredictExample, predict, report::text, drawn_predict, plan_report},
-      {"nc", "part plan -> turning program per setup (ISO 6983)", nc_example(),
-       nc_programs, nc_text},
-      {"quote", "part plans, batches, stock and charges -> unit prices with a bound",
+      {"nc", to_translate("part plan -> turning program per setup (ISO 6983)"),
+       nc_example(), nc_programs, nc_text},
+      {"quote",
+       to_translate("part plans, batches, stock and charges -> unit prices with a bound"),
        quote_example(), quote, report::quote_text},
       {"review",
-       "part plan, NC programs and tools -> forces, limits and times of each pass",
+       to_translate(
+           "part plan, NC programs and tools -> forces, limits and times of each pass"),
        review_example(), review_programs, report::review_text},
-      {"import", "STEP, DXF or a line of text -> part document for plan", kImportExample,
+      {"import", to_translate("STEP, DXF or a line of text -> part document for plan"),
+       kImportExample,
        [](const json& request, const Context& context) -> ordered_json {
          return document::import(request, context.catalogue);
        }},
       {"import-tools",
-       "tool library of Fusion, MTConnect, FreeCAD or CSV -> documents of tools",
+       to_translate(
+           "tool library of Fusion, MTConnect, FreeCAD or CSV -> documents of tools"),
        kImportToolsExample,
        [](const json& request, const Context&) -> ordered_json {
          return document::import_tools(request);
        }},
-      {"drawing", "part plan -> the part as it is read: surfaces, tolerances, setups",
+      {"drawing",
+       to_translate("part plan -> the part as it is read: surfaces, tolerances, setups"),
        kPlanExample, drawing},
-      {"deflection", "shaft, clamping, load -> flexibilities, deflections, slopes",
+      {"deflection",
+       to_translate("shaft, clamping, load -> flexibilities, deflections, slopes"),
        kDeflectionExample,
        [](const json& request, const Context&) -> ordered_json {
          return document::deflection(request);
        }},
-      {"acceptance", "deviations over features and their tolerances -> verdicts",
+      {"acceptance",
+       to_translate("deviations over features and their tolerances -> verdicts"),
        kAcceptanceExample,
        [](const json& request, const Context&) -> ordered_json {
          return document::acceptance(request);
        }},
-      {"chuck", "test cuts -> chuck compliance with uncertainties", kChuckExample,
+      {"chuck", to_translate("test cuts -> chuck compliance with uncertainties"),
+       kChuckExample,
        [](const json& request, const Context&) -> ordered_json {
          return document::chuck(request);
        },
        report::chuck_text},
-      {"thermal", "drift log -> model, prediction, residuals", kThermalExample,
+      {"thermal", to_translate("drift log -> model, prediction, residuals"),
+       kThermalExample,
        [](const json& request, const Context&) -> ordered_json {
          return document::thermal(request);
        },
        report::thermal_text},
-      {"geometry", "kinematic chain with errors, positions -> tip and direction errors",
+      {"geometry",
+       to_translate("kinematic chain with errors, positions -> tip and direction errors"),
        kGeometryExample,
        [](const json& request, const Context&) -> ordered_json {
          return document::geometry(request);
        },
        nullptr, drawn_geometry},
-      {"ballbar", "error model -> circular traces; traces -> ISO 230-4 and decomposition",
+      {"ballbar",
+       to_translate(
+           "error model -> circular traces; traces -> ISO 230-4 and decomposition"),
        kBallBarExample,
        [](const json& request, const Context&) -> ordered_json {
          return document::ball_bar(request);
        },
        nullptr, drawn_ball_bar},
-      {"samba", "probing strategy -> identifiability; readings -> parameters",
+      {"samba",
+       to_translate("probing strategy -> identifiability; readings -> parameters"),
        kSambaExample,
        [](const json& request, const Context&) -> ordered_json {
          return document::samba(request);
        }},
-      {"compare", "two calibrations with repeated runs -> agreement per parameter",
+      {"compare",
+       to_translate("two calibrations with repeated runs -> agreement per parameter"),
        kCompareExample,
        [](const json& request, const Context&) -> ordered_json {
          return document::compare(request);
        }},
-      {"compensate", "NC program and error model -> corrected program and residual",
+      {"compensate",
+       to_translate("NC program and error model -> corrected program and residual"),
        kCompensateExample,
        [](const json& request, const Context&) -> ordered_json {
          return document::compensate(request);
        },
        nullptr, drawn_compensate},
-      {"stability", "milling or turning dynamics -> limits per speed, verdict per point",
+      {"stability",
+       to_translate("milling or turning dynamics -> limits per speed, verdict per point"),
        kStabilityExample,
        [](const json& request, const Context& context) -> ordered_json {
          return document::stability(request, context.catalogue, context.stop,
@@ -587,32 +607,38 @@ std::span<const Request> requests() {
        },
        report::stability_text, drawn_stability, stability_report},
       {"overhang",
-       "spindle receptance, holder, tool, overhangs -> modes at the tip, limits of a cut",
+       to_translate("spindle receptance, holder, tool, overhangs -> modes at the tip, "
+                    "limits of a cut"),
        kOverhangExample,
        [](const json& request, const Context& context) -> ordered_json {
          return document::overhang(request, context.catalogue, context.stop,
                                    context.tell);
        },
        report::overhang_text},
-      {"listen", "sound of a cut (.wav) -> chatter frequency, speeds without it",
+      {"listen",
+       to_translate("sound of a cut (.wav) -> chatter frequency, speeds without it"),
        kListenExample,
        [](const json& request, const Context& context) -> ordered_json {
          return document::listen(request, context.catalogue, context.stop);
        },
        report::listen_text},
-      {"multipass", "the literature's multi-pass problem -> certified optimum",
+      {"multipass",
+       to_translate("the literature's multi-pass problem -> certified optimum"),
        kMultipassExample,
        [](const json& request, const Context&) -> ordered_json {
          return document::multipass(request);
        },
        report::multipass_text},
       {"calibrate-material",
-       "measured cuts -> kc1.1, mc, Taylor constants with intervals", kCalibrateExample,
+       to_translate("measured cuts -> kc1.1, mc, Taylor constants with intervals"),
+       kCalibrateExample,
        [](const json& request, const Context& context) -> ordered_json {
          return document::calibrate_material(request, context.catalogue);
        },
        report::material_text},
-      {"learn", "measured parts -> capability, drift, wear, advice for the next part",
+      {"learn",
+       to_translate(
+           "measured parts -> capability, drift, wear, advice for the next part"),
        kLearnExample,
        [](const json& request, const Context& context) -> ordered_json {
          return document::learn(request, context.catalogue);

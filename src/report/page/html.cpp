@@ -6,12 +6,14 @@
 #include <cctype>
 #include <cmath>
 
+#include "base/say.hpp"
 #include "html_parts.hpp"
 #include "report/picture/svg.hpp"
 #include "report/text/amounts.hpp"
 #include "report/text/certificate_words.hpp"
 #include "report/text/json_fields.hpp"
 #include "report/text/plan_words.hpp"
+#include "report/text/result_words.hpp"
 #include "report/text/setup_words.hpp"
 #include "sheet_html.hpp"
 #include "turnwright/base/units.hpp"
@@ -25,30 +27,30 @@ std::string header(std::string_view name, const ordered_json& result) {
   const bool feasible = word(result, "status") != "infeasible";
   std::string out = tag("h1", name);
   if (const auto title = title_block(result); !title.empty())
-    out += tag("p", "Drawing " + title);
+    out += tag("p", say("Drawing {}", title));
   const bool bad = !feasible || keeps_too_few(result);
-  auto status = feasible ? kept(result) : "infeasible: no plan keeps every limit";
+  auto status = feasible ? kept(result) : tr("infeasible: no plan keeps every limit");
   status[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(status[0])));
   out += "<p class=\"status" + std::string(bad ? " infeasible" : "") + "\">" +
          escaped(status) + "</p>\n";
   if (feasible) {
     out += "<dl>\n";
-    out +=
-        key_figure("Cost", money_of(result, number(result, "cost_per_part")), "per part");
-    out += key_figure("Time", duration(number(result, "time_per_part_min")),
-                      "per part" + preparing(result));
+    out += key_figure(tr("Cost"), money_of(result, number(result, "cost_per_part")),
+                      tr("per part"));
+    out += key_figure(tr("Time"), duration(number(result, "time_per_part_min")),
+                      tr("per part") + preparing(result));
     if (const auto profit = number(result, "profit_per_min"))
-      out += key_figure("Profit", money_of(result, profit), "per minute");
+      out += key_figure(tr("Profit"), money_of(result, profit), tr("per minute"));
     const auto& worst = object(result, "worst_conformance");
     if (const auto p = number(worst, "P_conform"))
-      out += key_figure("Worst tolerance", shown(100 * *p, 2),
-                        "% of the parts keep " + word(worst, "tolerance"));
+      out += key_figure(tr("Worst tolerance"), shown(100 * *p, 2),
+                        say("% of the parts keep {}", word(worst, "tolerance")));
     out += "</dl>\n";
     if (const auto words = setting_up(result); !words.empty())
-      out += tag("p", "Preparing the machine: " + words + ".");
+      out += tag("p", say("Preparing the machine: {}.", words));
   }
   if (const auto& c = object(result, "certificate"); !c.empty())
-    out += tag("p", "Proof: " + proof(c) + ".");
+    out += tag("p", say("Proof: {}.", proof(c)));
   return out + origin(result);
 }
 
@@ -57,8 +59,9 @@ std::string breakdown(const ordered_json& result) {
   const auto rows = spending(result);
   if (rows.empty()) return "";
   std::string out =
-      tag("h2", "Time and cost") +
-      table_head({{"spent on", "", false}, {"time", "s"}, {"cost", "per part"}});
+      tag("h2", tr("Time and cost")) +
+      table_head(
+          {{tr("spent on"), "", false}, {tr("time"), "s"}, {tr("cost"), tr("per part")}});
   for (const auto& r : rows)
     out += "<tr>" + words_cell(r.name) + number_cell(seconds(r.time_min)) +
            number_cell(money(r.cost)) + "</tr>\n";
@@ -91,17 +94,17 @@ std::string operation_rows(const ordered_json& operation) {
 }
 
 std::string operations(const ordered_json& all) {
-  if (all.empty()) return tag("p", "No operations.");
-  std::string out = table_head({{"operation", "", false},
-                                {"tool", "", false},
-                                {"passes", ""},
+  if (all.empty()) return tag("p", tr("No operations."));
+  std::string out = table_head({{tr("operation"), "", false},
+                                {tr("tool"), "", false},
+                                {tr("passes"), ""},
                                 {"ap", "mm"},
                                 {"f", "mm/rev"},
                                 {"vc", "m/min"},
                                 {"n", "1/min"},
-                                {"time", "s"},
-                                {"cost", "per part"},
-                                {"gap", ""}});
+                                {tr("time"), "s"},
+                                {tr("cost"), tr("per part")},
+                                {tr("gap"), ""}});
   for (const auto& operation : all) out += operation_rows(operation);
   return out + kTableFoot;
 }
@@ -110,9 +113,8 @@ std::string operations(const ordered_json& all) {
 std::string setup_figures(const ordered_json& result, const Figures& figures) {
   std::string out;
   for (std::size_t i = 1; i <= list(result, "setups").size(); ++i)
-    out += figure_named(
-        figures, fmt::format("setup-{}.svg", i),
-        fmt::format("Setup {}: the part, its clamping and its deviations", i));
+    out += figure_named(figures, fmt::format("setup-{}.svg", i),
+                        say("Setup {}: the part, its clamping and its deviations", i));
   return out;
 }
 
@@ -121,16 +123,19 @@ std::string setups(const ordered_json& result) {
   const bool feasible = word(result, "status") != "infeasible";
   std::size_t index = 0;
   for (const auto& setup : list(result, "setups")) {
-    const auto i = std::to_string(++index);
-    out += tag("h2", "Setup " + i) + tag("p", "Hold " + holding(setup) + ".");
+    out +=
+        tag("h2", say("Setup {}", ++index)) + tag("p", say("Hold {}.", holding(setup)));
     std::string rejected;
     for (const auto& r : list(setup, "rejected"))
-      rejected += tag("li", "not " + word(r, "clamping") + ": " + word(r, "why"));
+      rejected +=
+          tag("li", say("not {}: {}", spoken(word(r, "clamping")), word(r, "why")));
     if (!rejected.empty()) out += "<ul>\n" + rejected + "</ul>\n";
     if (!feasible && !list(setup, "operations").empty())
       out +=
-          "<p class=\"bad\">Conditions that come closest; they break limits, do not "
-          "cut with them.</p>\n";
+          "<p class=\"bad\">" +
+          escaped(tr("Conditions that come closest; they break limits, do not cut with "
+                     "them.")) +
+          "</p>\n";
     out += operations(list(setup, "operations"));
   }
   return out;
@@ -154,12 +159,17 @@ std::string tolerances(const ordered_json& result, const Figures& figures) {
   const auto& all = list(result, "tolerances");
   if (all.empty()) return "";
   const bool differ = published_differ(all);
-  std::vector<Heading> headings{
-      {"id", "", false},        {"kind", "", false},           {"of", "", false},
-      {"predicted", "\u00b5m"}, {"allowed", "\u00b5m"},        {"margin", "\u00b5m"},
-      {"used", "of the width"}, {"kept by", "% of the parts"}, {"verdict", "", false}};
-  if (differ) headings.push_back({"published", "", false});
-  std::string out = tag("h2", "Tolerances") + table_head(headings);
+  std::vector<Heading> headings{{tr("id"), "", false},
+                                {tr("kind"), "", false},
+                                {tr("of"), "", false},
+                                {tr("predicted"), "\u00b5m"},
+                                {tr("allowed"), "\u00b5m"},
+                                {tr("margin"), "\u00b5m"},
+                                {tr("used"), tr("of the width")},
+                                {tr("kept by"), tr("% of the parts")},
+                                {tr("verdict"), "", false}};
+  if (differ) headings.push_back({tr("published"), "", false});
+  std::string out = tag("h2", tr("Tolerances")) + table_head(headings);
   for (const auto& t : all) {
     const bool met = word(t, "verdict") != "not-met";
     out += "<tr>" + words_cell(word(t, "id")) + words_cell(kind_words(word(t, "kind"))) +
@@ -167,15 +177,17 @@ std::string tolerances(const ordered_json& result, const Figures& figures) {
            number_cell(micrometres(t, "allowed_mm")) +
            number_cell(micrometres(t, "margin_mm")) + used_cell(t) +
            number_cell(kept_by(t)) +
-           (met ? words_cell(verdict(t)) : "<td class=\"bad\">NOT MET</td>") +
+           (met ? words_cell(verdict(t))
+                : "<td class=\"bad\">" + escaped(verdict(t)) + "</td>") +
            (differ ? words_cell(other_verdict(t)) : "") + "</tr>\n";
   }
-  return out + kTableFoot +
-         "<p class=\"from\">offset: met with the tool's offset or corrected path" +
-         (differ ? "; published: by the published acceptance equations, where they differ"
+  return out + kTableFoot + "<p class=\"from\">" +
+         tr("offset: met with the tool's offset or corrected path") +
+         (differ ? tr("; published: by the published acceptance equations, where they "
+                      "differ")
                  : "") +
          "</p>\n" +
-         figure_named(figures, "budget.svg", "What takes each tolerance's width");
+         figure_named(figures, "budget.svg", tr("What takes each tolerance's width"));
 }
 
 // Of the operations that cost most; the others' pictures stand alone.
@@ -191,12 +203,12 @@ std::string windows(const ordered_json& result, const Figures& figures) {
   std::size_t count = 0;
   for (const auto& [cost, id] : shown_first) {
     const auto one =
-        figure_named(figures, "window-" + id + ".svg", "Speeds and feeds of " + id);
+        figure_named(figures, "window-" + id + ".svg", say("Speeds and feeds of {}", id));
     if (one.empty() || ++count > kMost) continue;
     out += one;
   }
   if (out.empty()) return "";
-  return tag("h2", "Windows of speed and feed: the operations that cost most") + out;
+  return tag("h2", tr("Windows of speed and feed: the operations that cost most")) + out;
 }
 
 // Of every milled place: how deep it may be cut over the spindle's speeds.
@@ -205,8 +217,8 @@ std::string stability(const ordered_json& result, const Figures& figures) {
   for (const auto& setup : list(result, "setups"))
     for (const auto& o : list(setup, "operations"))
       out += figure_named(figures, "stability-" + word(o, "id") + ".svg",
-                          "Stable depth over speed of " + word(o, "id"));
-  return out.empty() ? "" : tag("h2", "Stability of milled places") + out;
+                          say("Stable depth over speed of {}", word(o, "id")));
+  return out.empty() ? "" : tag("h2", tr("Stability of milled places")) + out;
 }
 
 std::string offsets(const ordered_json& result) {
@@ -216,11 +228,13 @@ std::string offsets(const ordered_json& result) {
             number_cell(shown(units::um_from_mm(number(o, "offset_mm").value_or(0)), 1)) +
             "</tr>\n";
   if (rows.empty()) return "";
-  return tag("h2", "Offsets: every pass is moved to the middle of the size") +
-         table_head({{"on", "", false}, {"setup", ""}, {"offset", "\u00b5m"}}) + rows +
-         kTableFoot +
-         "<p class=\"from\">on the radius, or along the axis; the first part shows what "
-         "is still missing</p>\n";
+  return tag("h2", tr("Offsets: every pass is moved to the middle of the size")) +
+         table_head(
+             {{tr("on"), "", false}, {tr("setup"), ""}, {tr("offset"), "\u00b5m"}}) +
+         rows + kTableFoot + "<p class=\"from\">" +
+         tr("on the radius, or along the axis; the first part shows what is still "
+            "missing") +
+         "</p>\n";
 }
 
 std::string compensation(const ordered_json& result) {
@@ -236,8 +250,10 @@ std::string compensation(const ordered_json& result) {
             words_cell(table) + "</tr>\n";
   }
   if (rows.empty()) return "";
-  return tag("h2", "Compensation: add dr to the radius of the tool path at z") +
-         table_head({{"on", "", false}, {"setup", ""}, {"z: dr", "mm: \u00b5m", false}}) +
+  return tag("h2", tr("Compensation: add dr to the radius of the tool path at z")) +
+         table_head({{tr("on"), "", false},
+                     {tr("setup"), ""},
+                     {"z: dr", "mm: \u00b5m", false}}) +
          rows + kTableFoot;
 }
 
@@ -246,12 +262,12 @@ std::string prices(const ordered_json& result) {
   auto sentences = sentences_of(list(result, "prices"));
   const auto all = sentences.size();
   if (all > kMost) sentences.resize(kMost);
-  auto out = section(
-      "Prices: what relaxing each limit by 10 % would save, to first order", sentences);
+  auto out =
+      section(tr("Prices: what relaxing each limit by 10 % would save, to first order"),
+              sentences);
   if (all > kMost)
-    out +=
-        fmt::format("<p class=\"from\">{} smaller ones are in the result document.</p>\n",
-                    all - kMost);
+    out += "<p class=\"from\">" +
+           say("{} smaller ones are in the result document.", all - kMost) + "</p>\n";
   return out;
 }
 
@@ -261,28 +277,29 @@ std::string html(std::string_view name, const ordered_json& result,
                  const Figures& figures, const std::vector<SetupSheet>& sheets) {
   const bool feasible = word(result, "status") != "infeasible";
   std::string out = header(name, result);
-  out += section("Conflicts: limits that cannot be kept together",
+  out += section(tr("Conflicts: limits that cannot be kept together"),
                  conflict_sentences(result));
   if (!feasible)
-    out += section(several_sets(list(result, "relax"))
-                       ? "Limits to relax: one of every set, the smallest change first"
-                       : "Limits to relax: the smallest change first",
-                   opening_sentences(result));
+    out +=
+        section(several_sets(list(result, "relax"))
+                    ? tr("Limits to relax: one of every set, the smallest change first")
+                    : tr("Limits to relax: the smallest change first"),
+                opening_sentences(result));
   if (const auto stays = what_stays(result); !stays.empty()) out += tag("p", stays);
-  out += section("Other changes, each line of which alone makes the part feasible",
+  out += section(tr("Other changes, each line of which alone makes the part feasible"),
                  sentences_of(list(result, "remedies")));
   out += breakdown(result) + (sheets.empty() ? setup_figures(result, figures) : "") +
          setups(result) + tolerances(result, figures) + prices(result) +
-         section("What if: planned anew with a change",
+         section(tr("What if: planned anew with a change"),
                  sentences_of(list(result, "what_if"))) +
-         section("Rules of the shop: the part planned without each",
+         section(tr("Rules of the shop: the part planned without each"),
                  sentences_of(list(result, "rules"))) +
-         section("Alternatives: each combination, planned",
+         section(tr("Alternatives: each combination, planned"),
                  sentences_of(list(result, "alternatives"))) +
          offsets(result) + compensation(result) + stability(result, figures) +
          windows(result, figures) + assumptions(result);
   for (const auto& sheet : sheets) out += sheet_html(sheet, figures);
-  return page(std::string(name) + " - process plan", out);
+  return page(say("{} - process plan", name), out);
 }
 
 }  // namespace turnwright::report

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/say.hpp"
 #include "report/picture/svg.hpp"
 #include "report/text/json_fields.hpp"
 #include "report/text/layout.hpp"
@@ -135,8 +136,8 @@ std::string origin(const ordered_json& result) {
   const auto version = word(result, "turnwright_version");
   const auto digest = word(result, "request_digest");
   if (version.empty() || digest.empty()) return "";
-  return "<p class=\"from\">Turnwright " + escaped(version) + ", request " +
-         escaped(digest) + "</p>\n";
+  return "<p class=\"from\">" +
+         escaped(say("Turnwright {}, request {}", version, digest)) + "</p>\n";
 }
 
 std::string assumptions(const ordered_json& result) {
@@ -150,14 +151,16 @@ std::string assumptions(const ordered_json& result) {
             words_cell(word(a, "why")) + "</tr>\n";
   }
   if (rows.empty()) return "";
-  return tag("h2", "Assumed: what the request left open") +
-         table_head({{"where", "", false}, {"taken", "", false}, {"why", "", false}},
-                    "assumed") +
+  return tag("h2", tr("Assumed: what the request left open")) +
+         table_head(
+             {{tr("where"), "", false}, {tr("taken"), "", false}, {tr("why"), "", false}},
+             "assumed") +
          rows + kTableFoot;
 }
 
 std::string page(std::string_view title, const std::string& body) {
-  return "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+  return "<!doctype html>\n<html lang=\"" + escaped(language()) +
+         "\">\n<head>\n<meta charset=\"utf-8\">\n"
          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
          "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
          "img-src data:; style-src 'unsafe-inline'\">\n<title>" +

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "base/say.hpp"
 #include "report/picture/svg.hpp"
 #include "report/text/amounts.hpp"
 #include "report/text/json_fields.hpp"
@@ -23,13 +24,13 @@ std::string nowrap_cell(const std::string& text) {
 }
 
 std::string numbered(int number) {
-  return number > 0 ? fmt::format("T{}", number) : "driven";
+  return number > 0 ? fmt::format("T{}", number) : tr("driven");
 }
 
 std::string lasts(const ToolRow& tool) {
   if (!tool.edge) return "-";
   const long parts = tool.edge->parts_per_edge;
-  return parts > 0 ? fmt::format("{} parts", parts) : "less than a part";
+  return parts > 0 ? say("{} parts", parts) : tr("less than a part");
 }
 
 std::string in_batch(const ToolRow& tool) {
@@ -50,16 +51,16 @@ std::string tools(const SetupSheet& sheet) {
             words_cell(joined(t.on)) + number_cell(lasts(t)) + number_cell(in_batch(t)) +
             "</tr>\n";
   }
-  return tag("h2", "Tools") +
-         table_head({{"tool", "", false},
-                     {"offset", ""},
-                     {"holder", "", false},
-                     {"insert", "", false},
-                     {"corner", "mm"},
-                     {"stick-out", "mm"},
-                     {"cuts", "", false},
-                     {"new edge every", ""},
-                     {"edges", "of the batch"}}) +
+  return tag("h2", tr("Tools")) +
+         table_head({{tr("tool"), "", false},
+                     {tr("offset"), ""},
+                     {tr("holder"), "", false},
+                     {tr("insert"), "", false},
+                     {tr("corner"), "mm"},
+                     {tr("stick-out"), "mm"},
+                     {tr("cuts"), "", false},
+                     {tr("new edge every"), ""},
+                     {tr("edges"), tr("of the batch")}}) +
          rows + kTableFoot;
 }
 
@@ -86,12 +87,13 @@ std::string followed_offsets(const SetupSheet& sheet) {
                 words_cell(moved) + "</tr>\n";
   }
   if (rows.empty()) return "";
-  return tag("h2", "Offsets while an edge wears") +
-         table_head({{"tool", "", false},
-                     {"at", "", false},
-                     {"after so many parts of an edge: offset on the diameter, of a face "
-                      "along Z",
-                      "\u00b5m", false}}) +
+  return tag("h2", tr("Offsets while an edge wears")) +
+         table_head(
+             {{tr("tool"), "", false},
+              {tr("at"), "", false},
+              {tr("after so many parts of an edge: offset on the diameter, of a face "
+                  "along Z"),
+               "\u00b5m", false}}) +
          rows + kTableFoot;
 }
 
@@ -101,9 +103,10 @@ std::string stops(const SetupSheet& sheet) {
   for (const auto& s : sheet.stops)
     rows += "<tr>" + words_cell(s.before) + words_cell(s.what) +
             number_cell(s.minutes > 0 ? duration(s.minutes) : "-") + "</tr>\n";
-  return tag("h2", "Stops (M0)") +
-         table_head({{"before", "", false}, {"do", "", false}, {"takes", ""}}) + rows +
-         kTableFoot;
+  return tag("h2", tr("Stops (M0)")) +
+         table_head(
+             {{tr("before"), "", false}, {tr("do"), "", false}, {tr("takes"), ""}}) +
+         rows + kTableFoot;
 }
 
 std::string checks(const SetupSheet& sheet) {
@@ -113,21 +116,21 @@ std::string checks(const SetupSheet& sheet) {
     rows += "<tr>" + nowrap_cell(c.what) + words_cell(c.of) + number_cell(c.limits) +
             number_cell(c.predicted) + words_cell(c.gauge) + nowrap_cell(c.when) +
             "<td class=\"blank\"></td></tr>\n";
-  return tag("h2", "Inspection") +
-         table_head({{"characteristic", "", false},
-                     {"of", "", false},
-                     {"limits", "mm"},
-                     {"predicted", "off nominal"},
-                     {"gauge", "", false},
-                     {"when", "", false},
-                     {"found", "", false}}) +
+  return tag("h2", tr("Inspection")) +
+         table_head({{tr("characteristic"), "", false},
+                     {tr("of"), "", false},
+                     {tr("limits"), "mm"},
+                     {tr("predicted"), tr("off nominal")},
+                     {tr("gauge"), "", false},
+                     {tr("when"), "", false},
+                     {tr("found"), "", false}}) +
          rows + kTableFoot;
 }
 
 std::string signatures() {
   std::string out = "<div class=\"sign\">\n";
-  for (const char* what : {"set up by, date", "first part released by, date",
-                           "programmed and approved by, date"})
+  for (const auto& what : {tr("set up by, date"), tr("first part released by, date"),
+                           tr("programmed and approved by, date")})
     out += tag("p", what);
   return out + "</div>\n";
 }
@@ -135,21 +138,21 @@ std::string signatures() {
 }  // namespace
 
 std::string sheet_html(const SetupSheet& sheet, const Figures& figures) {
-  const auto setup = fmt::format("Setup {} of {}", sheet.setup, sheet.setups);
+  const auto setup = say("Setup {} of {}", sheet.setup, sheet.setups);
   std::string out = "<section class=\"setup-sheet\">\n";
   out += "<h1>" + escaped(setup) + " <span>" + escaped(sheet.program) + "</span></h1>\n";
   out += entries(sheet.title, "title");
   out += figure_named(figures, fmt::format("setup-{}.svg", sheet.setup),
-                      setup + ": the part, its clamping and the program's zero");
+                      say("{}: the part, its clamping and the program's zero", setup));
   Entries facts = sheet.clamping;
   facts.insert(facts.end(), sheet.times.begin(), sheet.times.end());
   out += entries(facts, "facts");
   out += tools(sheet) + stops(sheet) + checks(sheet) + signatures() + "</section>\n";
   const auto path = figure_named(figures, fmt::format("path-{}.svg", sheet.setup),
-                                 setup + ": tool path and material taken off");
+                                 say("{}: tool path and material taken off", setup));
   if (const auto offsets = followed_offsets(sheet); !path.empty() || !offsets.empty())
-    out += "<section class=\"cut\">\n" + tag("h2", setup + ": the cut") + path + offsets +
-           "</section>\n";
+    out += "<section class=\"cut\">\n" + tag("h2", say("{}: the cut", setup)) + path +
+           offsets + "</section>\n";
   return out;
 }
 

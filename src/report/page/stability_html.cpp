@@ -1,7 +1,6 @@
 #include "stability_html.hpp"
 
-#include <fmt/format.h>
-
+#include "base/say.hpp"
 #include "html_parts.hpp"
 #include "report/text/json_fields.hpp"
 #include "report/text/stability_words.hpp"
@@ -14,12 +13,12 @@ using nlohmann::ordered_json;
 constexpr std::size_t kMost = 40;  // rows of a table
 
 std::string chart_header(const ordered_json& result) {
-  std::string out = tag("h1", "Stability of the cut");
+  std::string out = tag("h1", tr("Stability of the cut"));
   if (const auto& best = object(result, "best"); !best.empty()) {
     out += "<dl>\n";
-    out += key_figure("Best speed", shown(number(best, "n_rpm"), 0), "1/min");
-    out += key_figure("Depth there", significant(number(best, "ap_mm"), 3),
-                      "mm, with the margins");
+    out += key_figure(tr("Best speed"), shown(number(best, "n_rpm"), 0), "1/min");
+    out += key_figure(tr("Depth there"), significant(number(best, "ap_mm"), 3),
+                      tr("mm, with the margins"));
     out += "</dl>\n" + tag("p", best_words(best));
   }
   return out + origin(result);
@@ -39,34 +38,34 @@ std::string responses(const ordered_json& result) {
               number_cell(plus_minus(m, "damping_ratio")) +
               number_cell(plus_minus(m, "stiffness_N_mm")) +
               number_cell(significant(number(m, "mass_kg"))) + "</tr>\n";
-    rest += tag("p", fmt::format("Along {}: {} lines from {} to {} Hz; the modes explain "
-                                 "{} % of the response's squares, what is left is {} of "
-                                 "it and correlated by {} from line to line.",
-                                 word(r, "axis"), shown(number(r, "lines"), 0),
-                                 significant(number(r, "from_Hz")),
-                                 significant(number(r, "to_Hz")),
-                                 shown(100 * number(r, "explained").value_or(0), 3),
-                                 significant(number(r, "relative_rest"), 2),
-                                 shown(number(r, "correlation"), 2)));
+    rest +=
+        tag("p", say("Along {}: {} lines from {} to {} Hz; the modes explain "
+                     "{} % of the response's squares, what is left is {} of "
+                     "it and correlated by {} from line to line.",
+                     word(r, "axis"), shown(number(r, "lines"), 0),
+                     significant(number(r, "from_Hz")), significant(number(r, "to_Hz")),
+                     shown(100 * number(r, "explained").value_or(0), 3),
+                     significant(number(r, "relative_rest"), 2),
+                     shown(number(r, "correlation"), 2)));
   }
   if (rows.empty()) return "";
-  return tag("h2", "Modes of the measured response") +
-         table_head({{"axis", "", false},
-                     {"frequency", "Hz"},
-                     {"damping ratio", ""},
-                     {"stiffness", "N/mm"},
-                     {"mass", "kg"}}) +
+  return tag("h2", tr("Modes of the measured response")) +
+         table_head({{tr("axis"), "", false},
+                     {tr("frequency"), "Hz"},
+                     {tr("damping ratio"), ""},
+                     {tr("stiffness"), "N/mm"},
+                     {tr("mass"), "kg"}}) +
          rows + kTableFoot + rest;
 }
 
 std::string force(const ordered_json& result) {
   const auto& f = object(result, "force");
   if (f.empty()) return "";
-  return tag("p", fmt::format("Force of the material at a mean chip of {} mm: Kt {} MPa, "
-                              "Kn {} MPa.",
-                              significant(number(f, "hm_mm"), 3),
-                              significant(number(f, "Kt_MPa")),
-                              significant(number(f, "Kn_MPa"))));
+  return tag("p",
+             say("Force of the material at a mean chip of {} mm: Kt {} MPa, "
+                 "Kn {} MPa.",
+                 significant(number(f, "hm_mm"), 3), significant(number(f, "Kt_MPa")),
+                 significant(number(f, "Kn_MPa"))));
 }
 
 /// Warnings, and speeds and points that are undecided.
@@ -75,11 +74,11 @@ std::string warnings(const ordered_json& result) {
   for (const auto& warning : list(result, "warnings"))
     if (warning.is_string()) out += tag("p", warning.get<std::string>());
   for (const auto& u : list(result, "undecided"))
-    out += tag("p", fmt::format("Undecided: {} 1/min, {} mm ({}): {}.",
-                                significant(number(u, "n_rpm"), 6),
-                                significant(number(u, "ap_mm"), 6), word(u, "pointer"),
-                                word(u, "why")));
-  return out.empty() ? out : tag("h2", "Warnings") + out;
+    out += tag(
+        "p",
+        say("Undecided: {} 1/min, {} mm ({}): {}.", significant(number(u, "n_rpm"), 6),
+            significant(number(u, "ap_mm"), 6), word(u, "pointer"), word(u, "why")));
+  return out.empty() ? out : tag("h2", tr("Warnings")) + out;
 }
 
 std::string speeds(const ordered_json& result) {
@@ -91,13 +90,14 @@ std::string speeds(const ordered_json& result) {
     rows += "<tr>" + number_cell(shown(number(all[i], "n_rpm"), 0)) +
             number_cell(significant(number(all[i], "limit_mm"), 5)) +
             words_cell(limit_words(all[i])) + "</tr>\n";
-  std::string out = tag("h2", "Limits");
+  std::string out = tag("h2", tr("Limits"));
   if (step > 1)
-    out += fmt::format(
-        "<p class=\"from\">One in {} of {} speeds; all are in the result "
-        "document.</p>\n",
-        step, all.size());
-  return out + table_head({{"speed", "1/min"}, {"stable to", "mm"}, {"", "", false}}) +
+    out +=
+        "<p class=\"from\">" +
+        say("One in {} of {} speeds; all are in the result document.", step, all.size()) +
+        "</p>\n";
+  return out +
+         table_head({{tr("speed"), "1/min"}, {tr("stable to"), "mm"}, {"", "", false}}) +
          rows + kTableFoot;
 }
 
@@ -109,10 +109,13 @@ std::string points(const ordered_json& result) {
     rows += "<tr>" + number_cell(shown(number(all[i], "n_rpm"), 0)) +
             number_cell(significant(number(all[i], "ap_mm"))) +
             words_cell(verdict_words(all[i])) + "</tr>\n";
-  std::string out = tag("h2", "Requested cuts");
+  std::string out = tag("h2", tr("Requested cuts"));
   if (all.size() > kMost)
-    out += fmt::format("<p class=\"from\">The first {} of {}.</p>\n", kMost, all.size());
-  return out + table_head({{"speed", "1/min"}, {"depth", "mm"}, {"verdict", "", false}}) +
+    out +=
+        "<p class=\"from\">" + say("The first {} of {}.", kMost, all.size()) + "</p>\n";
+  return out +
+         table_head(
+             {{tr("speed"), "1/min"}, {tr("depth"), "mm"}, {tr("verdict"), "", false}}) +
          rows + kTableFoot;
 }
 
@@ -120,9 +123,9 @@ std::string points(const ordered_json& result) {
 
 std::string stability_html(std::string_view, const ordered_json& result,
                            const std::vector<Figure>& figures) {
-  return page("Stability of the cut",
+  return page(tr("Stability of the cut"),
               chart_header(result) +
-                  figure_named(figures, "stability.svg", "Depth over spindle speed") +
+                  figure_named(figures, "stability.svg", tr("Depth over spindle speed")) +
                   warnings(result) + force(result) + responses(result) + points(result) +
                   speeds(result) + assumptions(result));
 }

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <vector>
 
+#include "base/say.hpp"
 #include "report/text/layout.hpp"
 #include "report/text/plan_words.hpp"
+#include "report/text/result_words.hpp"
 #include "report/text/stack.hpp"
 #include "svg.hpp"
 #include "turnwright/base/units.hpp"
@@ -44,7 +46,7 @@ void box(Svg& svg, const std::string& css_class, double x0, double x1, double y0
 void draw_bar(Svg& svg, const ToleranceResult& t, const Stack& s, double y) {
   const double scale = kWhole / units::um_from_mm(t.width_mm);
   const double last = kNamesEnd + kMost * kWhole;
-  const auto label = t.id + ": " + kind_words(part::name(t.kind)) + " of " + t.of;
+  const auto label = say("{}: {} of {}", t.id, kind_words(part::name(t.kind)), t.of);
   svg.text({kNamesEnd - 2, y + kBar - 1}, Anchor::end, clipped(label, kLabel));
   double x = kNamesEnd;
   for (const auto& [source, um] : s.slices) {
@@ -53,10 +55,10 @@ void draw_bar(Svg& svg, const ToleranceResult& t, const Stack& s, double y) {
     x = to;
   }
   box(svg, "frame", kNamesEnd, kNamesEnd + kWhole, y, y + kBar);
-  svg.text(
-      {std::max(x, kNamesEnd + kWhole) + 1.5, y + kBar - 1}, Anchor::start,
-      plain(units::um_from_mm(t.width_mm), 1) + " \u00b5m" + (s.over() ? ", over" : ""),
-      s.over() ? "accent" : "");
+  svg.text({std::max(x, kNamesEnd + kWhole) + 1.5, y + kBar - 1}, Anchor::start,
+           plain(units::um_from_mm(t.width_mm), 1) + " \u00b5m" +
+               (s.over() ? tr(", over") : ""),
+           s.over() ? "accent" : "");
 }
 
 double draw_key(Svg& svg, const std::vector<std::string>& sources, double y) {
@@ -64,7 +66,8 @@ double draw_key(Svg& svg, const std::vector<std::string>& sources, double y) {
     const double x = 10 + kKeyWidth * static_cast<double>(i % kKeysARow);
     if (i > 0 && i % kKeysARow == 0) y += 5;
     box(svg, paint(sources[i]), x, x + kKey, y, y + kKey);
-    svg.text({x + kKey + 1.2, y + kKey - 0.5}, Anchor::start, clipped(sources[i], 16));
+    svg.text({x + kKey + 1.2, y + kKey - 0.5}, Anchor::start,
+             clipped(spoken(sources[i]), 16));
   }
   return y + 5;
 }
@@ -80,12 +83,12 @@ std::string budget_drawing(const planning::PreparedPart& part,
   const auto title = clipped(part.drawing.name, kName);
   svg.text({10, 9}, Anchor::start, title, "title");
   svg.text({10, 14}, Anchor::start,
-           "What takes each tolerance's width; the white rest is left");
+           tr("What takes each tolerance's width; the white rest is left"));
   double y = kTop;
   for (std::size_t i = 0; i < stacks.size(); ++i, y += kRow)
     draw_bar(svg, plan.tolerances[i], stacks[i], y);
   y = draw_key(svg, sources(stacks), y + 3);
-  return svg.page(kPage, y + 3, title + " - tolerance budget");
+  return svg.page(kPage, y + 3, say("{} - tolerance budget", title));
 }
 
 }  // namespace turnwright::report

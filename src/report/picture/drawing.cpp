@@ -6,10 +6,12 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/say.hpp"
 #include "chart.hpp"
 #include "clamping_drawing.hpp"
 #include "contour.hpp"
 #include "report/text/layout.hpp"
+#include "report/text/result_words.hpp"
 #include "setup_view.hpp"
 #include "spread.hpp"
 #include "svg.hpp"
@@ -72,7 +74,7 @@ template <class Element>
 std::string id_and_size(const part::Drawing& d, const Element& e) {
   const auto id = clipped(e.id, kIdLength);
   if (part::stays(e) && part::flats(d.stock.kind) > 0)
-    return id + (d.stock.kind == part::StockKind::hexagon ? "  hex " : "  sq ") +
+    return id + (d.stock.kind == part::StockKind::hexagon ? tr("  hex ") : tr("  sq ")) +
            plain(part::across_mm(d.stock));
   const auto size = e.cut ? e.cut->drawn : part::Ends{e.left_mm, e.right_mm};
   if (e.cut && e.cut->kind == part::CutKind::thread)
@@ -115,7 +117,7 @@ std::vector<Label> labels(const SetupView& s, const planning::Finished& finished
     const Point end = s.at((run.z0 + run.z1) / 2, (run.r0 + run.r1) / 2);
     const auto text = id_and_size(s.part.drawing, e);
     if (corrected(s, e.id))
-      all.push_back({end.x, end.y, text + ", path corrected", "path"});
+      all.push_back({end.x, end.y, say("{}, path corrected", text), "path"});
     else
       all.push_back({end.x, end.y, text, ""});
   };
@@ -127,7 +129,7 @@ std::vector<Label> labels(const SetupView& s, const planning::Finished& finished
     } else {
       const Point end = s.at((run.z0 + run.z1) / 2, part::stock_of(d, i).most_mm / 2);
       all.push_back(
-          {end.x, end.y, clipped(d.outer[i].id, kIdLength) + " uncut", "later"});
+          {end.x, end.y, say("{} uncut", clipped(d.outer[i].id, kIdLength)), "later"});
     }
   }
   for (std::size_t i = 0; i < d.inner.size(); ++i)
@@ -429,9 +431,10 @@ double draw_legend(SetupView& s, double top) {
   draw_bar(s, {10, foot}, {10 + s.scale.length * mm, foot});
   s.svg.text({10, foot - 2}, Anchor::start, plain(mm) + " mm");
   s.svg.text({kWords, foot - 3.6}, Anchor::start,
-             "thick: cut in this setup; dashed: stock; above the axis in section");
+             tr("thick: cut in this setup; dashed: stock; above the axis in section"));
   if (!(s.scale.factor > 0)) {
-    s.svg.text({kWords, foot}, Anchor::start, "no deviation of a radius is predicted");
+    s.svg.text({kWords, foot}, Anchor::start,
+               tr("no deviation of a radius is predicted"));
     return foot;
   }
   const double drawn = s.scale.length * s.scale.factor;  // paper mm of a mm of error
@@ -440,12 +443,12 @@ double draw_legend(SetupView& s, double top) {
   s.svg.text({56.5, foot - drawn * bar_mm / 2 + 1}, Anchor::start,
              plain(units::um_from_mm(bar_mm)) + " \u00b5m", "accent");
   s.svg.text({kWords, foot}, Anchor::start,
-             "red: the surface as made, its error " + plain(s.scale.factor) +
-                 ":1 to the lengths",
+             say("red: the surface as made, its error {}:1 to the lengths",
+                 plain(s.scale.factor)),
              "accent");
   if (!corrects(s)) return foot;
   s.svg.text({kWords, foot + 3.6}, Anchor::start,
-             "blue: the tool path as corrected, likewise", "path");
+             tr("blue: the tool path as corrected, likewise"), "path");
   return foot + 3.6;
 }
 
@@ -482,10 +485,12 @@ void draw_zero(SetupView& s) {
 }
 
 std::string heading(const SetupView& s) {
-  std::string text = "Setup " + std::to_string(s.setup + 1) + ": " + name(s.clamping()) +
-                     ", " + (s.holds_left() ? "left" : "right") + " end held";
+  const auto setup = s.setup + 1;
+  const auto clamping = spoken(name(s.clamping()));
+  auto text = s.holds_left() ? say("Setup {}: {}, left end held", setup, clamping)
+                             : say("Setup {}: {}, right end held", setup, clamping);
   if (s.clamping() != Clamping::between_centres)
-    text += ", grip " + plain(s.part.grips_mm[s.setup]) + " mm";
+    text += say(", grip {} mm", plain(s.part.grips_mm[s.setup]));
   return text;
 }
 
@@ -495,7 +500,7 @@ std::string drawn(SetupView s, const planning::Finished& finished) {
   s.svg.text({10, 9}, Anchor::start, title, "title");
   s.svg.text({10, 14}, Anchor::start, heading(s));
   if (s.plan.status == planning::PlanStatus::infeasible)
-    s.svg.text({kWidth - 10, 14}, Anchor::end, "no plan keeps every limit", "accent");
+    s.svg.text({kWidth - 10, 14}, Anchor::end, tr("no plan keeps every limit"), "accent");
   draw_body(s);
   draw_stock(s);
   draw_contour(s);

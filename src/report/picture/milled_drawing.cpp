@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "base/say.hpp"
 #include "chart.hpp"
 #include "report/text/layout.hpp"
 
@@ -62,14 +63,15 @@ std::string milled_drawing(const planning::OperationPlan& operation) {
   Sheet s{{cut.n_rpm.front(), cut.n_rpm.back(), kLeft, kRight},
           {0, cut.shown_mm, kBottom, kTop}};
   if (!(s.n.low < s.n.high)) s.n.high = s.n.low * 1.01;
-  const auto title = clipped(operation.id, kNameLength) + ": stable depth over speed";
+  const auto title =
+      say("{}: stable depth over speed", clipped(operation.id, kNameLength));
   s.svg.text({10, 9}, Anchor::start, title, "title");
   s.svg.text({10, 14}, Anchor::start,
-             "shaded: chatter; box: the margins asked for, " +
-                 plain(100 * cut.speed_margin) + " % of speed and " +
-                 plain(100 * cut.depth_margin) + " % of depth; diamond: the pass chosen");
+             say("shaded: chatter; box: the margins asked for, {} % of speed and {} % of "
+                 "depth; diamond: the pass chosen",
+                 plain(100 * cut.speed_margin), plain(100 * cut.depth_margin)));
   draw_limit(s, cut);
-  frame(s.svg, s.n, s.depth, "spindle speed, 1/min", "depth of a pass, mm", 8, 6);
+  frame(s.svg, s.n, s.depth, tr("spindle speed, 1/min"), tr("depth of a pass, mm"), 8, 6);
   draw_choice(s, cut, operation.passes.front());
   return s.svg.page(kWidth, kHeight, title);
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "base/say.hpp"
 #include "chart.hpp"
 #include "planning/clamping/jaws.hpp"
 #include "planning/clamping/positions.hpp"
@@ -181,9 +182,9 @@ double draw_legend(Sheet& s, const std::vector<CutPass>& all, double y) {
   s.svg.line("rapid", {kLeft, y - 1}, {kLeft + 6, y - 1});
   s.svg.text(
       {kLeft + 8, y}, Anchor::start,
-      "rapid; solid: feed of the programmed point; shaded: what each pass takes off");
+      tr("rapid; solid: feed of the programmed point; shaded: what each pass takes off"));
   y += kLine;
-  s.svg.text({kLeft + 8, y}, Anchor::start, "T above the frame: that tool comes in");
+  s.svg.text({kLeft + 8, y}, Anchor::start, tr("T above the frame: that tool comes in"));
   return y;
 }
 
@@ -203,14 +204,14 @@ std::string drawn(const PreparedPart& part, const planning::SetupPlan& setup,
           {grid.from_z - kBeside, end + kBeside, kLeft, kRight},
           {least, most, kTop + height, kTop}};
   const auto title = clipped(part.drawing.name, kNameLength);
-  const auto heading = fmt::format("Setup {}: the cut", program.setup + 1);
+  const auto heading = say("Setup {}: the cut", program.setup + 1);
   s.svg.text({10, 9}, Anchor::start, title, "title");
   s.svg.text(
       {10, 14}, Anchor::start,
       heading +
-          (stretch > 1 ? ", X drawn " + plain(stretch) + " times as large as Z" : ""));
+          (stretch > 1 ? say(", X drawn {} times as large as Z", plain(stretch)) : ""));
   const Scale diameters{2 * least, 2 * most, s.x.from, s.x.to};
-  frame(s.svg, s.z, diameters, "Z [mm]", "X, diameter [mm]", 8, 5);
+  frame(s.svg, s.z, diameters, "Z [mm]", tr("X, diameter [mm]"), 8, 5);
   s.svg.clip({kLeft, kTop}, {kRight, kTop + height});
   draw_work(s, grid, all.empty() ? grid.rings : all.back().after, "body");
   bool deep = false;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "base/say.hpp"
 #include "chart.hpp"
 #include "report/text/json_fields.hpp"
 #include "turnwright/base/units.hpp"
@@ -96,8 +97,8 @@ void fit_and_edges(Svg& svg, const Run& run) {
 std::string index(const ordered_json& c, const char* group, const char* key) {
   const auto& e = object(object(c, group), key);
   if (e.empty()) return "";
-  return fmt::format("{} {} ({} to {})", key, shown(number(e, "value"), 2),
-                     shown(number(e, "lower"), 2), shown(number(e, "upper"), 2));
+  return say("{} {} ({} to {})", key, shown(number(e, "value"), 2),
+             shown(number(e, "lower"), 2), shown(number(e, "upper"), 2));
 }
 
 std::string um_of(const ordered_json& e, const char* key) {
@@ -109,11 +110,11 @@ std::string advice_line(const ordered_json& c) {
   const auto& a = object(c, "advice");
   if (a.empty()) return "";
   const auto& by = object(a, "correction_mm");
-  std::string text =
-      fmt::format("next part: correct by {} um (u {} um){}", um_of(by, "value"),
-                  um_of(by, "u"), flag(a, "worthwhile") ? "" : ", which may be nothing");
+  auto text =
+      say("next part: correct by {} um (u {} um)", um_of(by, "value"), um_of(by, "u"));
+  if (!flag(a, "worthwhile")) text += tr(", which may be nothing");
   if (const auto due = number(a, "due_in_parts"))
-    text += fmt::format("; again after {} parts", shown(due, 0));
+    text += say("; again after {} parts", shown(due, 0));
   return text;
 }
 
@@ -123,11 +124,12 @@ std::string run_drawing(const ordered_json& c) {
   const std::string name = word(c, "id");
   svg.text({8, 11}, Anchor::start, name, "title");
   svg.text({8, 17}, Anchor::start,
-           fmt::format("nominal {} mm; {} values, {} left out; red: limits, dashed: fit "
-                       "within edges",
-                       plain(run.nominal_mm, 6), shown(number(c, "n"), 0),
-                       shown(number(c, "left_out"), 0)));
-  frame(svg, run.x, run.y, "values in the order of making", "deviation, um", 8, 6);
+           say("nominal {} mm; {} values, {} left out; red: limits, dashed: fit "
+               "within edges",
+               plain(run.nominal_mm, 6), shown(number(c, "n"), 0),
+               shown(number(c, "left_out"), 0)));
+  frame(svg, run.x, run.y, tr("values in the order of making"), tr("deviation, um"), 8,
+        6);
   fit_and_edges(svg, run);
   limit(svg, run, "upper_mm");
   limit(svg, run, "lower_mm");
@@ -138,7 +140,7 @@ std::string run_drawing(const ordered_json& c) {
     if (!text.empty()) words.push_back(text);
   svg.text({8, kRunBottom + 14}, Anchor::start, joined(words, "; "));
   svg.text({8, kRunBottom + 19}, Anchor::start, advice_line(c));
-  return svg.page(kRunWidth, kRunBottom + 24, "Run of " + name);
+  return svg.page(kRunWidth, kRunBottom + 24, say("Run of {}", name));
 }
 
 }  // namespace

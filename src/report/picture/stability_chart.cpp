@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/say.hpp"
 #include "chart.hpp"
 
 namespace turnwright::report {
@@ -118,7 +119,7 @@ class Chart {
     diamond("best", at);
     diamond("best", {kLeft + kMark, kTop - 4});
     svg_.text({kLeft + 3, kTop - 3}, Anchor::start,
-              "best with margins: " + plain(n, 0) + "/min, " + plain(depth, 2) + " mm",
+              say("best with margins: {}/min, {} mm", plain(n, 0), plain(depth, 2)),
               "path");
     for (const auto& magic : result_.at("magic_speeds")) {
       const double x = place(magic.at("n_rpm"), 0).x;
@@ -136,36 +137,37 @@ class Chart {
   }
 
   void axes() {
-    frame(svg_, speed_, depth_, "spindle speed, 1/min", "axial depth, mm", 8, 6);
+    frame(svg_, speed_, depth_, tr("spindle speed, 1/min"), tr("axial depth, mm"), 8, 6);
   }
 
   void key(bool robust) {
     double x = kLeft;
     const double y = kBottom + 17;
-    const auto stroke = [&](const std::string& css_class, const char* text) {
+    const auto stroke = [&](const std::string& css_class, const std::string& text) {
       svg_.line(css_class, {x, y}, {x + 6, y});
       svg_.text({x + 7.5, y + 1}, Anchor::start, text);
       x += 24;
     };
-    stroke("flip", "flip");
+    stroke("flip", tr("flip"));
     stroke("hopf", "Hopf");
-    if (folds_) stroke("fold", "fold");
-    stroke("", "first limit");
-    if (robust) stroke("robust", "robust");
+    if (folds_) stroke("fold", tr("fold"));
+    stroke("", tr("first limit"));
+    if (robust) stroke(tr("robust"), tr("robust"));
     box("count1", {x, y - 1.5}, {x + 4, y + 1.5});
     box("count" + std::to_string(kShades), {x + 4, y - 1.5}, {x + 8, y + 1.5});
-    svg_.text({x + 9.5, y + 1}, Anchor::start, "unstable; more multipliers");
-    svg_.text({kLeft, 9}, Anchor::start, "Stability of the cut", "title");
+    svg_.text({x + 9.5, y + 1}, Anchor::start, tr("unstable; more multipliers"));
+    svg_.text({kLeft, 9}, Anchor::start, tr("Stability of the cut"), "title");
     const bool undecided = std::ranges::any_of(columns_, [](const Column& c) {
       return !c.speed || c.speed->contains("searched_mm");
     });
-    svg_.text(
-        {kRight, kTop - 3}, Anchor::end,
-        undecided ? "ticks: magic speeds; shaded: undecided" : "ticks: magic speeds");
+    svg_.text({kRight, kTop - 3}, Anchor::end,
+              undecided ? tr("ticks: magic speeds; shaded: undecided")
+                        : tr("ticks: magic speeds"));
   }
 
   std::string page() const {
-    return svg_.page(kPage, kHeight, "Stability chart: axial depth over spindle speed");
+    return svg_.page(kPage, kHeight,
+                     tr("Stability chart: axial depth over spindle speed"));
   }
 
  private:
@@ -263,7 +265,7 @@ std::string stability_chart(const json& request, const ordered_json& result) {
   chart.limit_line("", [](const ordered_json& s) { return s.at("limit_mm"); });
   const bool robust = result.at("speeds").front().contains("uncertain");
   if (robust)
-    chart.limit_line("robust", [](const ordered_json& s) {
+    chart.limit_line(tr("robust"), [](const ordered_json& s) {
       return s.at("uncertain").at("robust_mm");
     });
   chart.points();

@@ -1,14 +1,14 @@
 #include "volumetric_drawing.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
+#include "base/say.hpp"
 #include "chart.hpp"
+#include "report/text/result_words.hpp"
 #include "svg.hpp"
 #include "turnwright/base/units.hpp"
 
@@ -90,7 +90,7 @@ void lobes(Svg& svg, const Trace& t, double top) {
   if (!(most > 0)) return;
   const Scale x{kFirst - 0.7, kLast + 0.7, 150, 184},
       y{0, units::um_from_mm(most) * 1.1, top + 30, top};
-  frame(svg, x, y, "undulations per turn", "amplitude, um", 7, 4);
+  frame(svg, x, y, tr("undulations per turn"), tr("amplitude, um"), 7, 4);
   for (int n = kFirst; n <= kLast; ++n)
     for (const int path : {0, 1}) {
       const double at = x.place(n) + (path == 0 ? -0.6 : 0.6);
@@ -103,7 +103,7 @@ void lobes(Svg& svg, const Trace& t, double top) {
 
 std::string in_words(std::string name) {
   std::ranges::replace(name, '_', ' ');
-  return name;
+  return spoken(name);
 }
 
 void key(Svg& svg, Point at, const char* line, const char* words,
@@ -113,9 +113,9 @@ void key(Svg& svg, Point at, const char* line, const char* words,
 }
 
 void polar_key(Svg& svg, double y) {
-  key(svg, {kMargin, y}, kCcw, "accent", "counter-clockwise");
-  key(svg, {kMargin + 48, y}, kCw, "path", "clockwise");
-  key(svg, {kMargin + 84, y}, "thin", "", "fit of twelve terms, both ways");
+  key(svg, {kMargin, y}, kCcw, "accent", tr("counter-clockwise"));
+  key(svg, {kMargin + 48, y}, kCw, "path", tr("clockwise"));
+  key(svg, {kMargin + 84, y}, "thin", "", tr("fit of twelve terms, both ways"));
 }
 
 }  // namespace
@@ -128,7 +128,7 @@ std::string ball_bar_drawing(const Trace& t) {
   c.factor = most > 0 ? round_below(kRoom / most * 1.0001) : 1;
   Svg svg;
   const auto [u, v] = axes_of(t.plane);
-  const std::string name = fmt::format("Ball bar {}{}, R = {} mm", u, v, plain(t.R_mm));
+  const std::string name = say("Ball bar {}{}, R = {} mm", u, v, plain(t.R_mm));
   svg.text({kMargin, 11}, Anchor::start, name, "title");
   const double ring_mm = dial(svg, c, t.plane);
   for (const double dir : {1.0, -1.0}) {
@@ -146,12 +146,11 @@ std::string ball_bar_drawing(const Trace& t) {
   }
   const double below = kCentreY + kRadius + kRoom + 12;
   polar_key(svg, below);
-  svg.text(
-      {kMargin, below + 5}, Anchor::start,
-      fmt::format("deviations {} : 1 about the common centre ({} {}, {} {} um); rings {} "
-                  "um apart, dashed: 0; 1 mm of paper is {} um",
-                  plain(c.factor), u, um(c.e_u), v, um(c.e_v), um(ring_mm, 4),
-                  um(1 / c.factor, 4)));
+  svg.text({kMargin, below + 5}, Anchor::start,
+           say("deviations {} : 1 about the common centre ({} {}, {} {} um); rings {} "
+               "um apart, dashed: 0; 1 mm of paper is {} um",
+               plain(c.factor), u, um(c.e_u), v, um(c.e_v), um(ring_mm, 4),
+               um(1 / c.factor, 4)));
   lobes(svg, t, 22);
   double y = 74;
   const auto row = [&](const std::string& what, const std::string& value) {
@@ -159,12 +158,12 @@ std::string ball_bar_drawing(const Trace& t) {
     svg.text({184, y}, Anchor::end, value);
     y += 4;
   };
-  row("RANGE OF EACH EFFECT", "um");
+  row(tr("RANGE OF EACH EFFECT"), "um");
   for (const Contribution& of : fit.ranking) row(in_words(of.name), um(of.range_mm));
   y += 2;
-  row("G ccw, G cw", um(iso.G_ccw_mm) + ", " + um(iso.G_cw_mm));
-  row("hysteresis H", um(iso.H_mm));
-  row("left by the fit, RMS", um(fit.rms_mm, 3));
+  row(tr("G ccw, G cw"), um(iso.G_ccw_mm) + ", " + um(iso.G_cw_mm));
+  row(tr("hysteresis H"), um(iso.H_mm));
+  row(tr("left by the fit, RMS"), um(fit.rms_mm, 3));
   return svg.page(kWidth, below + 10, name);
 }
 
@@ -188,7 +187,8 @@ std::string compensation_drawing(const Compensated& compensated) {
   const Scale x{0, std::max(1.0, static_cast<double>(all.size())), 24, 182},
       y{std::log10(kFloor_um), std::ceil(most - 1e-6), 92, 26};  // floats: 1.00000005
   Svg svg;
-  svg.text({kMargin, 11}, Anchor::start, "Distance of the tip from its target", "title");
+  svg.text({kMargin, 11}, Anchor::start, tr("Distance of the tip from its target"),
+           "title");
   svg.polyline(
       "",
       {{x.from, y.from}, {x.to, y.from}, {x.to, y.to}, {x.from, y.to}, {x.from, y.from}});
@@ -201,7 +201,7 @@ std::string compensation_drawing(const Compensated& compensated) {
     svg.line("thin", {x.place(t), y.from}, {x.place(t), y.from - 1});
     svg.text({x.place(t), y.from + 3.6}, Anchor::middle, plain(t, 0));
   }
-  svg.text({(x.from + x.to) / 2, y.from + 8}, Anchor::middle, "moves of the program");
+  svg.text({(x.from + x.to) / 2, y.from + 8}, Anchor::middle, tr("moves of the program"));
   svg.text_upwards({11, (y.from + y.to) / 2}, Anchor::middle, "um");
   for (const std::size_t k : {0u, 1u}) {
     std::vector<Point> line;
@@ -212,11 +212,11 @@ std::string compensation_drawing(const Compensated& compensated) {
     if (!line.empty()) svg.polyline(k == 0 ? kCcw : "path", line);
   }
   const auto told = [](const Deviation& d) {
-    return fmt::format("largest {} um, RMS {} um", um(d.max_mm, 4), um(d.rms_mm, 4));
+    return say("largest {} um, RMS {} um", um(d.max_mm, 4), um(d.rms_mm, 4));
   };
-  key(svg, {kMargin, 17}, kCcw, "accent", "before: " + told(compensated.before));
-  key(svg, {kMargin + 92, 17}, kCw, "path", "after: " + told(compensated.after));
-  return svg.page(kWidth, 104, "Distance of the tip from its target");
+  key(svg, {kMargin, 17}, kCcw, "accent", say("before: {}", told(compensated.before)));
+  key(svg, {kMargin + 92, 17}, kCw, "path", say("after: {}", told(compensated.after)));
+  return svg.page(kWidth, 104, tr("Distance of the tip from its target"));
 }
 
 namespace {
@@ -294,18 +294,18 @@ bool errors_of(Svg& svg, const Axis& axis, std::size_t first, double left, doubl
 
 std::string error_map(const Machine& machine) {
   Svg svg;
-  svg.text({kMargin, 11}, Anchor::start, "Errors along the axes of " + machine.chain,
-           "title");
-  svg.text({kMargin, 17}, Anchor::start, "pairs of lines: moving in + and in -");
+  svg.text({kMargin, 11}, Anchor::start,
+           say("Errors along the axes of {}", machine.chain), "title");
+  svg.text({kMargin, 17}, Anchor::start, tr("pairs of lines: moving in + and in -"));
   double top = 27;
   for (const Axis& axis : machine.axes) {
     const bool shifts = errors_of(svg, axis, 0, 24, top),
                turns = errors_of(svg, axis, 3, 116, top);
     if (shifts || turns) top += 56;
   }
-  if (top == 27) svg.text({kMargin, 23}, Anchor::start, "none along any axis");
+  if (top == 27) svg.text({kMargin, 23}, Anchor::start, tr("none along any axis"));
   return svg.page(kWidth, std::max(30.0, top - 6),
-                  "Errors along the axes of " + machine.chain);
+                  say("Errors along the axes of {}", machine.chain));
 }
 
 }  // namespace turnwright::report

@@ -5,7 +5,9 @@
 #include <set>
 #include <stdexcept>
 
+#include "base/say.hpp"
 #include "report/text/layout.hpp"
+#include "report/text/result_words.hpp"
 #include "svg.hpp"
 
 namespace turnwright::report {
@@ -50,8 +52,8 @@ void name_line(Sheet& s, const std::string& name, Point at,
   if (!s.named.insert(name).second) return;
   const std::string letter(1, static_cast<char>('a' + (s.named.size() - 1) % 26));
   s.svg.text({at.x + 0.8, at.y - 0.8}, Anchor::start, letter, css_class);
-  s.svg.text({kKey, s.key}, Anchor::start, letter + "  " + clipped(name, kNameLength),
-             css_class);
+  s.svg.text({kKey, s.key}, Anchor::start,
+             letter + "  " + clipped(spoken_limit(name), kNameLength), css_class);
   s.key += kKeyGap;
 }
 
@@ -110,11 +112,12 @@ std::string window_drawing(const planning::OperationPlan& operation) {
     throw std::domain_error("window_drawing: the operation must have a window");
   const auto& w = *operation.window;
   Sheet s{axis_over(w.vc_m_min, kLeft, kRight), axis_over(w.f_mm_rev, kBottom, kTop)};
-  const auto title = clipped(operation.id, kNameLength) + ": window of speed and feed";
+  const auto title =
+      say("{}: window of speed and feed", clipped(operation.id, kNameLength));
   s.svg.text({10, 9}, Anchor::start, title, "title");
   s.svg.text({10, 14}, Anchor::start,
-             "every limit kept, at most " + plain(w.percent) +
-                 " % above the optimum (the diamond)");
+             say("every limit kept, at most {} % above the optimum (the diamond)",
+                 plain(w.percent)));
   const auto corners = s.points(w.vc_m_min, w.f_mm_rev);
   s.svg.polygon("error", corners);
   draw_axes(s);

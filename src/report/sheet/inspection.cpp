@@ -6,11 +6,13 @@
 #include <cmath>
 #include <optional>
 
+#include "base/say.hpp"
 #include "gauge.hpp"
 #include "planning/clamping/made_surfaces.hpp"
 #include "planning/setup/edge_schedule.hpp"
 #include "report/picture/svg.hpp"
 #include "report/text/plan_words.hpp"
+#include "report/text/result_words.hpp"
 #include "turnwright/base/units.hpp"
 
 namespace turnwright::report {
@@ -94,14 +96,14 @@ const ToolRow* finishing_tool(const std::vector<ToolRow>& tools,
 
 /// "first, then 1 in 12"; without a number where the batch is over before.
 std::string every(const PreparedPart& p, long parts, bool new_edge) {
-  if (p.batch && static_cast<double>(parts) >= *p.batch) return "first part";
-  if (parts <= 1) return "every part";
-  return new_edge ? fmt::format("first of each edge ({} parts)", parts)
-                  : fmt::format("first, then 1 in {}", parts);
+  if (p.batch && static_cast<double>(parts) >= *p.batch) return tr("first part");
+  if (parts <= 1) return tr("every part");
+  return new_edge ? say("first of each edge ({} parts)", parts)
+                  : say("first, then 1 in {}", parts);
 }
 
 std::string when(const PreparedPart& p, const ToolRow* tool, bool size) {
-  if (!tool || !tool->edge) return "first part";
+  if (!tool || !tool->edge) return tr("first part");
   const auto& edge = *tool->edge;
   const auto corrected =
       planning::parts_until(p.shop.life_between_offsets, edge.edges_per_part);
@@ -115,25 +117,27 @@ Check check(const PreparedPart& p, const planning::SetupPlan& setup,
   const auto& d = p.drawing;
   const bool size = part::facts(t.kind).rule == ToleranceRule::size && t.limits;
   Check c;
-  c.of = t.of.empty() ? t.between[0] + " to " + t.between[1] : t.of;
+  c.of = t.of.empty() ? t.between[0] + say(" to {}", t.between[1]) : t.of;
   if (size) {
     const double nominal = nominal_mm(d, t);
     const auto fit = of_element(d, t.of, [](const auto& e) { return e.fit; });
     const auto ground = of_element(d, t.of, [](const auto& e) { return e.ground_to; });
-    c.what = (t.kind == part::ToleranceKind::length ? "length " : "\u00d8") +
-             plain(nominal) + (fit ? ' ' + *fit : "");
-    if (ground) c.what += ", for grinding to \u00d8" + *ground;
+    c.what = (t.kind == part::ToleranceKind::length ? say("length {}", plain(nominal))
+                                                    : "\u00d8" + plain(nominal)) +
+             (fit ? ' ' + *fit : "");
+    if (ground) c.what += say(", for grinding to \u00d8{}", *ground);
     c.limits = fmt::format("{:.{}f} .. {:.{}f}", nominal + t.limits->lower_mm,
                            kMicrometre, nominal + t.limits->upper_mm, kMicrometre);
   } else {
-    c.what = kind_words(part::name(t.kind)) +
-             (t.datum.empty() ? "" : " to " + part::datum_words(t));
+    const auto kind = kind_words(part::name(t.kind));
+    c.what = t.datum.empty() ? kind : kind + say(" to {}", part::datum_words(t));
     c.limits = fmt::format("{:.{}f}", t.value_mm, kMicrometre);
   }
   c.predicted = micrometres(result.predicted_mm, size);
   c.gauge = gauge(measured(d, t), t.value_mm);
   const bool too_few = result.P_conform < p.conformance - 1e-6;
-  c.when = too_few ? "every part" : when(p, finishing_tool(tools, setup, surface), size);
+  c.when =
+      too_few ? tr("every part") : when(p, finishing_tool(tools, setup, surface), size);
   return c;
 }
 
@@ -159,10 +163,10 @@ void add_roughness(std::vector<Check>& all, const PreparedPart& p,
     const auto made_with = planning::cut_with(p.drawing, id);
     const auto predicted = predicted_um(setup, made_with, what);
     const Check one{
-        what,
+        spoken(what),
         id,
         plain(*limit_um) + " \u00b5m",
-        predicted ? fmt::format("{:.2f} \u00b5m", *predicted) : "not predicted",
+        predicted ? fmt::format("{:.2f} \u00b5m", *predicted) : tr("not predicted"),
         roughness_gauge(*limit_um * as_Ra),
         when(p, finishing_tool(tools, setup, made_with), false)};
     const auto like = std::ranges::find_if(all, [&](const Check& c) {
@@ -186,17 +190,17 @@ void add_roughness(std::vector<Check>& all, const PreparedPart& p,
 void add_threads(std::vector<Check>& all, const PreparedPart& p,
                  const planning::SetupPlan& setup, std::size_t index,
                  const std::vector<ToolRow>& tools) {
-  const auto add = [&](const auto& e, const char* gauge) {
+  const auto add = [&](const auto& e, const std::string& gauge) {
     if (!e.cut || e.cut->kind != part::CutKind::thread ||
         planning::setup_of(p, e.id) != index)
       return;
     all.push_back(
         {fmt::format("M{}\u00d7{}", plain(e.cut->drawn.left_mm), plain(e.cut->pitch_mm)),
-         e.id, "go, no-go", "not predicted", gauge,
+         e.id, tr("go, no-go"), tr("not predicted"), gauge,
          when(p, finishing_tool(tools, setup, e.id), false)});
   };
-  for (const auto& e : p.drawing.outer) add(e, "thread rings");
-  for (const auto& e : p.drawing.inner) add(e, "thread plug");
+  for (const auto& e : p.drawing.outer) add(e, tr("thread rings"));
+  for (const auto& e : p.drawing.inner) add(e, tr("thread plug"));
 }
 
 void add_knurls(std::vector<Check>& all, const PreparedPart& p,
@@ -208,9 +212,8 @@ void add_knurls(std::vector<Check>& all, const PreparedPart& p,
           {fmt::format("DIN 82-{} \u00d8{}",
                        part::designation(part::Knurl{e.cut->knurl, e.cut->pitch_mm}),
                        plain(e.cut->drawn.left_mm)),
-           e.id, fmt::format("turned to \u00d8{} before", plain(e.left_mm)),
-           "not predicted", "caliper",
-           when(p, finishing_tool(tools, setup, e.id), false)});
+           e.id, say("turned to \u00d8{} before", plain(e.left_mm)), tr("not predicted"),
+           tr("caliper"), when(p, finishing_tool(tools, setup, e.id), false)});
 }
 
 void add_reamed(std::vector<Check>& all, const PreparedPart& p,
@@ -219,7 +222,7 @@ void add_reamed(std::vector<Check>& all, const PreparedPart& p,
   for (const auto& e : p.drawing.inner)
     if (part::is_reamed(e) && planning::setup_of(p, e.id) == index)
       all.push_back({fmt::format("\u00d8{} {}", plain(e.left_mm), e.fit.value_or("")),
-                     e.id, "go, no-go", "not predicted", "plug gauge",
+                     e.id, tr("go, no-go"), tr("not predicted"), tr("plug gauge"),
                      when(p, finishing_tool(tools, setup, e.id), false)});
 }
 

@@ -6,12 +6,14 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "base/say.hpp"
 #include "planning/clamping/jaws.hpp"
 #include "planning/clamping/made_surfaces.hpp"
 #include "planning/clamping/positions.hpp"
 #include "report/picture/program_steps.hpp"
 #include "report/picture/svg.hpp"
 #include "report/text/amounts.hpp"
+#include "report/text/result_words.hpp"
 #include "turnwright/base/units.hpp"
 
 namespace turnwright::report {
@@ -22,8 +24,9 @@ using planning::Clamping;
 using planning::PreparedPart;
 using planning::SetupPlan;
 
-const char* word(End end) { return end == End::left ? "left" : "right"; }
-void add(Entries& all, const char* name, const std::string& value) {
+std::string word(End end) { return end == End::left ? tr("left end") : tr("right end"); }
+
+void add(Entries& all, const std::string& name, const std::string& value) {
   if (!value.empty()) all.emplace_back(name, value);
 }
 
@@ -31,13 +34,13 @@ Entries title(const PreparedPart& p) {
   const auto& d = p.drawing;
   const auto& m = p.material;
   Entries all;
-  add(all, "Part", d.name);
-  add(all, "Drawing", d.title.drawing_number);
-  add(all, "Revision", d.title.revision);
-  add(all, "Customer", d.title.customer);
-  add(all, "Material",
+  add(all, tr("Part"), d.name);
+  add(all, tr("Drawing"), d.title.drawing_number);
+  add(all, tr("Revision"), d.title.revision);
+  add(all, tr("Customer"), d.title.customer);
+  add(all, tr("Material"),
       fmt::format("{}, {}, {:.0f} HB", m.name, m.condition, m.hardness_HB));
-  add(all, "Machine", p.machine.name);
+  add(all, tr("Machine"), p.machine.name);
   return all;
 }
 
@@ -51,15 +54,15 @@ double front_mm(const PreparedPart& p, std::size_t setup) {
 std::string stock(const PreparedPart& p, std::size_t setup) {
   const auto& s = p.drawing.stock;
   if (setup > 0)
-    return fmt::format(
-        "the part from setup {}{}", setup,
-        p.setups[setup].hold == p.setups[setup - 1].hold ? "" : ", turned round");
-  auto text = (s.kind == part::StockKind::tube      ? "tube \u00d8"
-               : s.kind == part::StockKind::hexagon ? "hexagon bar "
-               : s.kind == part::StockKind::square  ? "square bar "
-               : s.kind == part::StockKind::casting ? "casting \u00d8"
-               : s.kind == part::StockKind::forging ? "forging \u00d8"
-                                                    : "bar \u00d8") +
+    return p.setups[setup].hold == p.setups[setup - 1].hold
+               ? say("the part from setup {}", setup)
+               : say("the part from setup {}, turned round", setup);
+  auto text = (s.kind == part::StockKind::tube      ? tr("tube \u00d8")
+               : s.kind == part::StockKind::hexagon ? tr("hexagon bar ")
+               : s.kind == part::StockKind::square  ? tr("square bar ")
+               : s.kind == part::StockKind::casting ? tr("casting \u00d8")
+               : s.kind == part::StockKind::forging ? tr("forging \u00d8")
+                                                    : tr("bar \u00d8")) +
               plain(part::across_mm(s));
   if (s.inner_mm > 0) text += "/\u00d8" + plain(s.inner_mm);
   return text + " \u00d7 " + plain(s.length_mm) + " mm";
@@ -70,9 +73,8 @@ std::string stick_out(const PreparedPart& p, std::size_t setup, Clamping clampin
   const double length =
       std::abs(planning::free_z_mm(p, setup) - planning::root_z_mm(p, setup, clamping));
   const double front = front_mm(p, setup);
-  auto text = fmt::format("{:.1f} mm from the jaws to Z0", length);
-  if (front > 0)
-    text += fmt::format(", {:.1f} mm with what is faced off", length + front);
+  auto text = say("{:.1f} mm from the jaws to Z0", length);
+  if (front > 0) text += say(", {:.1f} mm with what is faced off", length + front);
   return text;
 }
 
@@ -80,19 +82,20 @@ std::string kN(double N) { return fmt::format("{:.1f} kN", N / 1000); }
 
 std::string jaws(const PreparedPart& p, const SetupPlan& s, std::size_t setup) {
   if (!(s.grip_force_N > 0)) return "";
-  auto text = fmt::format("{}, hold the {} end at \u00d8{} over {} mm, {}",
-                          name(p.setups[setup].jaws), word(s.hold),
-                          plain(planning::grip_diameter_mm(p, setup, s.clamping), 2),
-                          plain(p.grips_mm[setup], 1), kN(s.grip_force_N));
+  auto text = say("{}, hold the {} at \u00d8{} over {} mm, {}",
+                  spoken(name(p.setups[setup].jaws)), word(s.hold),
+                  plain(planning::grip_diameter_mm(p, setup, s.clamping), 2),
+                  plain(p.grips_mm[setup], 1), kN(s.grip_force_N));
   if (s.finishing_grip_force_N < s.grip_force_N)
-    text += fmt::format("; eased to {} to finish, so that the part stays round",
-                        kN(s.finishing_grip_force_N));
+    text += say("; eased to {} to finish, so that the part stays round",
+                kN(s.finishing_grip_force_N));
   return text;
 }
 
 std::string tailstock(const PreparedPart& p) {
   const double thrust_N = p.machine.tail_thrust_N;
-  return thrust_N > 0 ? "tailstock centre, " + kN(thrust_N) : "tailstock centre";
+  return thrust_N > 0 ? say("tailstock centre, {}", kN(thrust_N))
+                      : tr("tailstock centre");
 }
 
 std::string support(const PreparedPart& p, const SetupPlan& s, std::size_t setup) {
@@ -103,52 +106,67 @@ std::string support(const PreparedPart& p, const SetupPlan& s, std::size_t setup
     case Clamping::chuck_tailstock:
       return tailstock(p);
     case Clamping::between_centres:
-      return fmt::format("between centres, {} end at the headstock, {}", word(s.hold),
-                         tailstock(p));
+      return say("between centres, {} at the headstock, {}", word(s.hold), tailstock(p));
     case Clamping::chuck_steady:
-      return fmt::format(
-          "steady rest at Z{:.1f}",
-          sign * (p.setups[setup].steady_z_mm - planning::free_z_mm(p, setup)));
+      return say("steady rest at Z{:.1f}",
+                 sign * (p.setups[setup].steady_z_mm - planning::free_z_mm(p, setup)));
     case Clamping::tailstock_follow:
       break;
   }
-  return tailstock(p) + ", follow rest at the tool";
+  return say("{}, follow rest at the tool", tailstock(p));
 }
 
 Entries clamping(const PreparedPart& p, const SetupPlan& s, std::size_t setup) {
   Entries all;
-  add(all, "Stock", stock(p, setup));
-  add(all, "Stick-out", stick_out(p, setup, s.clamping));
-  add(all, "Jaws", jaws(p, s, setup));
-  add(all, "Support", support(p, s, setup));
+  add(all, tr("Stock"), stock(p, setup));
+  add(all, tr("Stick-out"), stick_out(p, setup, s.clamping));
+  add(all, tr("Jaws"), jaws(p, s, setup));
+  add(all, tr("Support"), support(p, s, setup));
   return all;
 }
 
 std::string zero(const ShopPrograms& shop) {
   return (shop.work_offset.empty() ? "" : shop.work_offset + ": ") +
-         "X on the spindle's axis, Z in the finished face of the free end";
+         tr("X on the spindle's axis, Z in the finished face of the free end");
 }
 
 Entries times(const PreparedPart& p, const planning::ProcessPlan& plan,
               const SetupPlan& s, const toolpath::Minutes& m) {
   Entries all;
-  add(all, "Program",
-      fmt::format("{}, of it {} in the cut", duration(m.total()), duration(m.cutting)));
-  add(all, "Loading", duration(s.breakdown.loading.time_min));
+  add(all, tr("Program"),
+      say("{}, of it {} in the cut", duration(m.total()), duration(m.cutting)));
+  add(all, tr("Loading"), duration(s.breakdown.loading.time_min));
   if (p.batch)
-    add(all, "Batch",
-        fmt::format("{:.0f} parts, {} to prepare the machine", *p.batch,
-                    duration(p.machine.setup_min)));
-  add(all, "Part", duration(plan.time_per_part_min) + " in all setups");
+    add(all, tr("Batch"),
+        say("{:.0f} parts, {} to prepare the machine", *p.batch,
+            duration(p.machine.setup_min)));
+  add(all, tr("Part"), say("{} in all setups", duration(plan.time_per_part_min)));
   return all;
+}
+
+/// How comments of stops begin, a longer beginning before the shorter; the programs have them
+/// in English.
+constexpr const char* kAsked[] = {
+    to_translate("bring up the tailstock, set the follow rest"),
+    to_translate("bring up the tailstock"),
+    to_translate("from the chuck to between centres"),
+    to_translate("set the steady rest at "),
+    to_translate("jaws to "),
+    to_translate("not in this program: ")};
+
+std::string spoken_comment(std::string_view comment) {
+  constexpr std::string_view kStop = "stop: ";
+  if (comment.starts_with(kStop)) comment.remove_prefix(kStop.size());
+  for (const std::string_view begin : kAsked)
+    if (comment.starts_with(begin)) return tr(begin).append(comment.substr(begin.size()));
+  return std::string(comment);
 }
 
 /// What a stop of the program asks for, without the word "stop".
 std::string asked(const toolpath::Step& stop) {
   std::string text;
-  for (const auto& c : stop.comments) text += (text.empty() ? "" : "; ") + c;
-  constexpr std::string_view kStop = "stop: ";
-  return text.starts_with(kStop) ? text.substr(kStop.size()) : text;
+  for (const auto& c : stop.comments) text += text.empty() ? spoken_comment(c) : "; " + c;
+  return text;
 }
 
 std::vector<StopRow> stops(const SetupPlan& s, const toolpath::SetupProgram& program) {
@@ -176,7 +194,7 @@ std::vector<SetupSheet> setup_sheets(const PreparedPart& part,
     sheet.program = shop.files[all.size()];
     sheet.title = title(part);
     sheet.clamping = clamping(part, s, i);
-    sheet.clamping.emplace_back("Zero", zero(shop));
+    sheet.clamping.emplace_back(tr("Zero"), zero(shop));
     sheet.times = times(part, plan, s, program.minutes);
     sheet.tools = tool_rows(part, s, program);
     sheet.stops = stops(s, program);

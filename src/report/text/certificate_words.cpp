@@ -1,12 +1,12 @@
 #include "certificate_words.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "base/say.hpp"
 #include "json_fields.hpp"
+#include "result_words.hpp"
 
 namespace turnwright::report {
 namespace {
@@ -32,15 +32,15 @@ std::string at_most(const ordered_json& certificate, int decimals) {
 std::string perhaps(const ordered_json& certificate) {
   constexpr double kAll_pct = 99.95;  // nothing is known
   const auto gap = gap_pct(certificate);
-  if (!gap || !(*gap < kAll_pct)) return "a better plan may exist";
+  if (!gap || !(*gap < kAll_pct)) return tr("a better plan may exist");
   // cost (1 - gap) is the least that the best may cost
   ordered_json dearer{{"gap", 1 / (1 - *gap / 100) - 1}};
-  return "may be up to " + at_most(dearer, 1) + " dearer than the best";
+  return say("may be up to {} dearer than the best", at_most(dearer, 1));
 }
 
 std::string gap(const ordered_json& certificate) {
   const auto kind = word(certificate, "kind");
-  if (kind == "local" || kind == "none") return kind;
+  if (kind == "local" || kind == "none") return spoken(kind);
   return kind == "global" ? shown(gap_pct(certificate), 2) + " %" : "-";
 }
 
@@ -48,10 +48,11 @@ std::string proof(const ordered_json& certificate) {
   const auto kind = word(certificate, "kind");
   const auto reason = word(certificate, "reason");
   if (kind == "global")
-    return "proven: no choice of clamping, tools and conditions is better by more than " +
-           at_most(certificate, 2);
-  if (kind == "local") return "not proven: " + perhaps(certificate);
-  return reason.empty() ? "not proven" : reason;
+    return say(
+        "proven: no choice of clamping, tools and conditions is better by more than {}",
+        at_most(certificate, 2));
+  if (kind == "local") return say("not proven: {}", perhaps(certificate));
+  return reason.empty() ? tr("not proven") : reason;
 }
 
 }  // namespace turnwright::report

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/say.hpp"
 #include "json_fields.hpp"
 #include "layout.hpp"
 #include "provenance.hpp"
@@ -22,11 +23,11 @@ std::string um(const ordered_json& of, const char* key, int decimals = 2) {
   return mm ? shown(units::um_from_mm(*mm), decimals) : "-";
 }
 
-std::string joined_words(const ordered_json& words, const char* between) {
+std::string joined_words(const ordered_json& words, const std::string& between) {
   std::vector<std::string> all;
   for (const auto& w : words)
     if (w.is_string()) all.push_back(w.get<std::string>());
-  return joined(all, between);
+  return joined(all, between.c_str());
 }
 
 /// A value beside its standard error, and that in per cent.
@@ -41,7 +42,7 @@ Row estimate(const std::string& name, std::optional<double> value,
 Row spring(const ordered_json& springs, const std::string& name, const std::string& key,
            const std::string& unit) {
   if (springs.contains(key) && springs[key].is_null())
-    return {{name, "rigid", "-", "-", unit}, ""};
+    return {{name, tr("rigid"), "-", "-", unit}, ""};
   return estimate(name, number(springs, key.c_str()),
                   number(springs, ("u_" + key).c_str()), unit);
 }
@@ -61,17 +62,20 @@ std::string compliance(const ordered_json& root, const ordered_json& fit) {
     rows.push_back(spring(springs, "k2", "k2_Nmm_rad", "N mm/rad"));
     rows.push_back(spring(springs, "k3", "k3_Nmm_rad", "N mm/rad"));
   }
-  std::string out = table(
-      {{"", Align::left}, {"value"}, {"std. error"}, {"%"}, {"unit", Align::left}}, rows);
+  std::string out = table({{"", Align::left},
+                           {tr("value")},
+                           {tr("std. error")},
+                           {"%"},
+                           {tr("unit"), Align::left}},
+                          rows);
   if (springs.empty()) return out;
   const auto& arms = list(springs, "Lc_range_mm");
   const auto arm = [&arms](std::size_t i) {
     return i < arms.size() && arms[i].is_number() ? shown(arms[i].get<double>(), 1) : "-";
   };
-  return out +
-         paragraph("  ", fmt::format("springs for the arm Lc = {} mm; any from {} to "
-                                     "{} mm gives the same deflections",
-                                     shown(number(springs, "Lc_mm"), 1), arm(0), arm(1)));
+  return out + paragraph("  ", say("springs for the arm Lc = {} mm; any from {} to "
+                                   "{} mm gives the same deflections",
+                                   shown(number(springs, "Lc_mm"), 1), arm(0), arm(1)));
 }
 
 std::string fitted_offsets(const ordered_json& fit) {
@@ -79,7 +83,8 @@ std::string fitted_offsets(const ordered_json& fit) {
   for (const auto& o : list(fit, "offsets"))
     all.push_back(
         fmt::format("{}: {} ({})", word(o, "setup"), um(o, "offset_mm"), um(o, "u_mm")));
-  return paragraph("  ", "offsets of the setups in um (std. error)  " + joined(all));
+  return paragraph("  ",
+                   say("offsets of the setups in um (std. error)  {}", joined(all)));
 }
 
 std::string outliers(const ordered_json& fit) {
@@ -87,22 +92,21 @@ std::string outliers(const ordered_json& fit) {
   for (const auto& i : list(fit, "outliers"))
     if (i.is_number()) all.push_back(shown(i.get<double>(), 0));
   if (all.empty()) return "";
-  return paragraph("  ", "cuts left out, counted from 0: " + joined(all));
+  return paragraph("  ", say("cuts left out, counted from 0: {}", joined(all)));
 }
 
 std::string fitted(const char* plane, const ordered_json& result) {
   const ordered_json& fit = object(result, plane);
   if (fit.empty()) return "";
-  std::string out = paragraph(
-      plane == kPlanes[0] ? "\nRADIAL  " : "\nTANGENTIAL  ",
-      fmt::format("scatter of a cut {} um, {} degrees of freedom", um(fit, "s_mm"),
-                  shown(number(fit, "degrees_of_freedom"), 0)));
+  std::string out =
+      paragraph('\n' + (plane == kPlanes[0] ? tr("RADIAL  ") : tr("TANGENTIAL  ")),
+                say("scatter of a cut {} um, {} degrees of freedom", um(fit, "s_mm"),
+                    shown(number(fit, "degrees_of_freedom"), 0)));
   out += compliance(object(object(result, "chuck"), plane), fit);
   if (flag(fit, "on_border"))
-    out += paragraph("  ",
-                     fmt::format("at the border of the elastic chucks, the best of all "
-                                 "fits {} s^2 better",
-                                 shown(number(fit, "contradiction"), 2)));
+    out += paragraph("  ", say("at the border of the elastic chucks, the best of all "
+                               "fits {} s^2 better",
+                               shown(number(fit, "contradiction"), 2)));
   return out + fitted_offsets(fit) + outliers(fit);
 }
 
@@ -110,24 +114,22 @@ std::string fitted(const char* plane, const ordered_json& result) {
 std::string design(const char* plane, const ordered_json& result) {
   const ordered_json& can = object(object(result, "identifiability"), plane);
   if (can.empty() || result.contains("chuck")) return "";
-  std::string out =
-      paragraph(plane == kPlanes[0] ? "\nRADIAL  " : "\nTANGENTIAL  ",
-                fmt::format("{} of c0, c1, c2 are determined, {} degrees of freedom",
-                            shown(number(can, "rank"), 0),
-                            shown(number(can, "degrees_of_freedom"), 0)));
+  std::string out = paragraph(
+      '\n' + (plane == kPlanes[0] ? tr("RADIAL  ") : tr("TANGENTIAL  ")),
+      say("{} of c0, c1, c2 are determined, {} degrees of freedom",
+          shown(number(can, "rank"), 0), shown(number(can, "degrees_of_freedom"), 0)));
   for (const auto& n : list(can, "null_directions"))
-    out += paragraph("  not determined: ", word(n, "words"));
+    out += paragraph(tr("  not determined: "), word(n, "words"));
   if (const auto& missing = list(can, "missing"); !missing.empty())
-    out += paragraph("  missing: ", joined_words(missing, " and "));
+    out += paragraph(tr("  missing: "), joined_words(missing, tr(" and ")));
   if (const auto& one = list(can, "setups_of_one_force"); !one.empty())
-    out += paragraph("  setups of one force: ", joined_words(one, ", "));
+    out += paragraph(tr("  setups of one force: "), joined_words(one, ", "));
   if (can.contains("condition"))
     out += paragraph(
-        "  ", fmt::format("condition {}; predictions at the cuts err by up to {} um per "
-                          "um of scatter; most useful next: {}",
-                          significant(number(can, "condition")),
-                          significant(number(can, "largest_u_per_s")),
-                          word(can, "most_useful")));
+        "  ", say("condition {}; predictions at the cuts err by up to {} um per "
+                  "um of scatter; most useful next: {}",
+                  significant(number(can, "condition")),
+                  significant(number(can, "largest_u_per_s")), word(can, "most_useful")));
   return out;
 }
 
@@ -140,15 +142,17 @@ std::string predictions(const ordered_json& result) {
           um(p, "radius_error_mm"), um(p, "u_radius_error_mm")},
          ""});
   if (rows.empty()) return "";
-  return "\nPREDICTED  deflection of the chuck alone, um, each with its standard "
-         "error\n" +
+  return '\n' +
+         tr("PREDICTED  deflection of the chuck alone, um, each with its standard "
+            "error") +
+         '\n' +
          table({{"z mm"},
                 {"Fr N"},
-                {"radial"},
+                {tr("radial")},
                 {"+-"},
-                {"tangential"},
+                {tr("tangential")},
                 {"+-"},
-                {"radius error"},
+                {tr("radius error")},
                 {"+-"}},
                rows);
 }
@@ -166,28 +170,31 @@ std::string polynomial(const ordered_json& graph) {
                               j == 0   ? "mm"
                               : j == 1 ? "mm/mm"
                                        : fmt::format("mm/mm^{}", j)));
-  return table(
-      {{"", Align::left}, {"coefficient"}, {"std. error"}, {"%"}, {"unit", Align::left}},
-      rows);
+  return table({{"", Align::left},
+                {tr("coefficient")},
+                {tr("std. error")},
+                {"%"},
+                {tr("unit"), Align::left}},
+               rows);
 }
 
 std::string graph(const ordered_json& result) {
   const ordered_json& g = object(result, "graph");
   if (g.empty()) return "";
-  std::string out = paragraph(
-      "\nDEVIATION GRAPH  ",
-      fmt::format("R^2 {} ({} as measured), scatter {} um, {} degrees of freedom",
-                  shown(number(g, "r2"), 4), shown(number(g, "r2_as_measured"), 4),
-                  um(g, "s_mm"), shown(number(g, "degrees_of_freedom"), 0)));
+  std::string out =
+      paragraph('\n' + tr("DEVIATION GRAPH  "),
+                say("R^2 {} ({} as measured), scatter {} um, {} degrees of freedom",
+                    shown(number(g, "r2"), 4), shown(number(g, "r2_as_measured"), 4),
+                    um(g, "s_mm"), shown(number(g, "degrees_of_freedom"), 0)));
   out += polynomial(g);
   for (const auto& s : list(g, "steps"))
-    out += paragraph(
-        "  step ",
-        fmt::format("of {} um (std. error {}) between z = {} and {} mm; "
-                    "by chance: p = {}",
-                    um(s, "height_mm"), um(s, "u_mm"), shown(number(s, "after_mm"), 2),
-                    shown(number(s, "before_mm"), 2), significant(number(s, "p"), 2)));
-  if (list(g, "steps").empty()) out += "  no step of the carriage\n";
+    out +=
+        paragraph(tr("  step "),
+                  say("of {} um (std. error {}) between z = {} and {} mm; "
+                      "by chance: p = {}",
+                      um(s, "height_mm"), um(s, "u_mm"), shown(number(s, "after_mm"), 2),
+                      shown(number(s, "before_mm"), 2), significant(number(s, "p"), 2)));
+  if (list(g, "steps").empty()) out += tr("  no step of the carriage") + '\n';
   return out;
 }
 
@@ -197,7 +204,7 @@ std::string chuck_text(const ordered_json& result) {
   std::string out;
   for (const char* plane : kPlanes) out += fitted(plane, result) + design(plane, result);
   out += predictions(result) + graph(result) + warnings(result);
-  return "CHUCK  test cuts and deviation graphs\n" + made_by(result) + out;
+  return tr("CHUCK  test cuts and deviation graphs") + '\n' + made_by(result) + out;
 }
 
 }  // namespace turnwright::report

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "base/say.hpp"
 #include "json_fields.hpp"
 #include "layout.hpp"
 #include "provenance.hpp"
@@ -17,19 +18,20 @@ using nlohmann::ordered_json;
 std::string heard(const ordered_json& result) {
   const auto& chatter = object(result, "chatter");
   if (chatter.empty())
-    return "\n" + paragraph("", fmt::format("No chatter is heard from {} to {} Hz.",
-                                            shown(number(result, "from_Hz"), 0),
-                                            shown(number(result, "to_Hz"), 0)));
+    return '\n' + paragraph("", say("No chatter is heard from {} to {} Hz.",
+                                    shown(number(result, "from_Hz"), 0),
+                                    shown(number(result, "to_Hz"), 0)));
   std::vector<std::string> speeds;
   for (const auto& s : list(result, "speeds"))
-    speeds.push_back(fmt::format("{} 1/min ({} a tooth)", shown(number(s, "n_rpm"), 0),
-                                 shown(number(s, "harmonic"), 0)));
-  std::string out = fmt::format("It chatters at {} Hz, {} dB over the noise.",
-                                shown(number(chatter, "frequency_Hz"), 1),
-                                shown(number(chatter, "over_noise_dB"), 0));
+    speeds.push_back(say("{} 1/min ({} a tooth)", shown(number(s, "n_rpm"), 0),
+                         shown(number(s, "harmonic"), 0)));
+  std::string out = say("It chatters at {} Hz, {} dB over the noise.",
+                        shown(number(chatter, "frequency_Hz"), 1),
+                        shown(number(chatter, "over_noise_dB"), 0));
   if (!speeds.empty())
-    out += " Speeds at which its waves keep step with the teeth: " + joined(speeds) + ".";
-  return "\n" + paragraph("", out);
+    out +=
+        say(" Speeds at which its waves keep step with the teeth: {}.", joined(speeds));
+  return '\n' + paragraph("", out);
 }
 
 std::string charted(const ordered_json& result) {
@@ -40,8 +42,8 @@ std::string charted(const ordered_json& result) {
                      fmt::format("{} 1/min, {} mm: {}", shown(number(p, "n_rpm"), 0),
                                  significant(number(p, "ap_mm"), 3), verdict_words(p)));
   if (const auto& best = object(chart, "best"); !best.empty())
-    out += paragraph("  best: ", best_words(best));
-  return out.empty() ? "" : "\nBY THE MODES GIVEN\n" + out;
+    out += paragraph(tr("  best: "), best_words(best));
+  return out.empty() ? "" : '\n' + tr("BY THE MODES GIVEN") + '\n' + out;
 }
 
 std::string lines(const ordered_json& result) {
@@ -52,20 +54,22 @@ std::string lines(const ordered_json& result) {
                      shown(number(line, "over_noise_dB"), 0), what},
                     ""});
   };
-  for (const auto& line : list(result, "others")) add(line, "no harmonic");
-  for (const auto& line : list(result, "harmonics"))
-    add(line, (flag(line, "of_teeth") ? "teeth, " : "run-out, ") +
-                  shown(number(line, "order"), 0) + " times the spindle");
+  for (const auto& line : list(result, "others")) add(line, tr("no harmonic"));
+  for (const auto& line : list(result, "harmonics")) {
+    const auto order = shown(number(line, "order"), 0);
+    add(line, flag(line, "of_teeth") ? say("teeth, {} times the spindle", order)
+                                     : say("run-out, {} times the spindle", order));
+  }
   if (rows.empty()) return "";
-  return "\nLINES OF THE SOUND\n" +
-         table({{"Hz"}, {"amplitude"}, {"dB"}, {"", Align::left}}, rows);
+  return '\n' + tr("LINES OF THE SOUND") + '\n' +
+         table({{"Hz"}, {tr("amplitude")}, {"dB"}, {"", Align::left}}, rows);
 }
 
 }  // namespace
 
 std::string listen_text(const ordered_json& result) {
-  return "SOUND OF THE CUT\n" + made_by(result) + heard(result) + charted(result) +
-         lines(result);
+  return tr("SOUND OF THE CUT") + '\n' + made_by(result) + heard(result) +
+         charted(result) + lines(result);
 }
 
 }  // namespace turnwright::report

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "base/say.hpp"
 #include "json_fields.hpp"
 #include "layout.hpp"
 #include "provenance.hpp"
@@ -16,7 +17,7 @@ using nlohmann::ordered_json;
 // A constant with its interval, or as it was given.
 Row constant(const std::string& key, const ordered_json& e) {
   return {{key, significant(number(e, "value"), 5), significant(number(e, "lower"), 5),
-           significant(number(e, "upper"), 5), flag(e, "given") ? "as given" : ""},
+           significant(number(e, "upper"), 5), flag(e, "given") ? tr("as given") : ""},
           ""};
 }
 
@@ -24,10 +25,10 @@ std::string left_out(const ordered_json& group) {
   std::vector<std::string> cuts;
   for (const auto& i : list(group, "outliers"))
     if (i.is_number()) cuts.push_back(shown(i.get<double>(), 0));
-  return cuts.empty() ? "" : "; left out as outliers: cuts " + joined(cuts);
+  return cuts.empty() ? "" : say("; left out as outliers: cuts {}", joined(cuts));
 }
 
-std::string group(const ordered_json& result, const char* key, const char* title) {
+std::string group(const ordered_json& result, const char* key, const std::string& title) {
   const auto& g = object(result, key);
   if (g.empty()) return "";
   std::vector<Row> rows;
@@ -35,20 +36,23 @@ std::string group(const ordered_json& result, const char* key, const char* title
     if (value.is_object() && value.contains("value"))
       rows.push_back(constant(name, value));
   return fmt::format("\n{}\n", title) +
-         paragraph("  ",
-                   fmt::format("{} cuts, {} degrees of freedom, residual scatter {} %{}",
-                               shown(number(g, "cuts"), 0),
-                               shown(number(g, "degrees_of_freedom"), 0),
-                               shown(number(g, "s_pct"), 2), left_out(g))) +
-         table({{"", Align::left}, {"value"}, {"from"}, {"to"}, {"", Align::left}}, rows);
+         paragraph("  ", say("{} cuts, {} degrees of freedom, residual scatter {} %{}",
+                             shown(number(g, "cuts"), 0),
+                             shown(number(g, "degrees_of_freedom"), 0),
+                             shown(number(g, "s_pct"), 2), left_out(g))) +
+         table({{"", Align::left},
+                {tr("value")},
+                {tr("from")},
+                {tr("to")},
+                {"", Align::left}},
+               rows);
 }
 
 // 14.2 (11.9 to 16.4) min
 std::string minutes(const ordered_json& edges, const char* key) {
   const auto& e = object(edges, key);
-  return fmt::format("{} min ({} to {})", significant(number(e, "value"), 3),
-                     significant(number(e, "lower"), 3),
-                     significant(number(e, "upper"), 3));
+  return say("{} min ({} to {})", significant(number(e, "value"), 3),
+             significant(number(e, "lower"), 3), significant(number(e, "upper"), 3));
 }
 
 // How the lives of edges scatter.
@@ -59,26 +63,25 @@ std::string edges(const ordered_json& result) {
   const auto& at = object(e, "at");
   std::string text = paragraph(
       "  ",
-      fmt::format("half of the edges reach {}, 90 % of them {}, at vc {} m/min, f {} "
-                  "mm/rev, ap {} mm",
-                  minutes(e, "T50_min"), minutes(e, "T90_min"),
-                  significant(number(at, "vc_m_min"), 3),
-                  significant(number(at, "f_mm_rev"), 3),
-                  significant(number(at, "ap_mm"), 3)));
+      say("half of the edges reach {}, 90 % of them {}, at vc {} m/min, f {} "
+          "mm/rev, ap {} mm",
+          minutes(e, "T50_min"), minutes(e, "T90_min"),
+          significant(number(at, "vc_m_min"), 3), significant(number(at, "f_mm_rev"), 3),
+          significant(number(at, "ap_mm"), 3)));
   const bool weibull = word(e, "distribution") == "weibull";
   text += paragraph(
-      "  ", fmt::format("their lives are likelier {}; Weibull's shape is {}",
-                        weibull ? "Weibull's than lognormal" : "lognormal than Weibull's",
-                        significant(number(e, "weibull_shape"), 3)));
+      "  ",
+      (weibull ? tr("their lives are likelier Weibull's than lognormal")
+               : tr("their lives are likelier lognormal than Weibull's")) +
+          say("; Weibull's shape is {}", significant(number(e, "weibull_shape"), 3)));
   if (const auto& s = object(e, "scatter_pct"); !s.empty())
     text += paragraph(
-        "  ", fmt::format("edges at equal conditions scatter by {} % ({} to {}), lack of "
-                          "fit {} %",
-                          shown(number(s, "value"), 1), shown(number(s, "lower"), 1),
-                          shown(number(s, "upper"), 1),
-                          shown(number(e, "lack_of_fit_pct"), 1)));
+        "  ", say("edges at equal conditions scatter by {} % ({} to {}), lack of "
+                  "fit {} %",
+                  shown(number(s, "value"), 1), shown(number(s, "lower"), 1),
+                  shown(number(s, "upper"), 1), shown(number(e, "lack_of_fit_pct"), 1)));
   if (const auto n = number(life, "censored"))
-    text += paragraph("  ", "longer than their test: " + shown(n, 0) + " lives");
+    text += paragraph("  ", say("longer than their test: {} lives", shown(n, 0)));
   return text;
 }
 
@@ -93,13 +96,14 @@ std::string labs(const ordered_json& result) {
         rows.push_back(row);
       }
   if (rows.empty()) return "";
-  return "\nLABS\n" + table({{"", Align::left},
-                             {"", Align::left},
-                             {"factor"},
-                             {"from"},
-                             {"to"},
-                             {"cuts"}},
-                            rows);
+  return '\n' + tr("LABS") + '\n' +
+         table({{"", Align::left},
+                {"", Align::left},
+                {tr("factor")},
+                {tr("from")},
+                {tr("to")},
+                {tr("cuts")}},
+               rows);
 }
 
 // Errors of cuts that the others predict.
@@ -111,33 +115,33 @@ std::string replicas(const ordered_json& result) {
           shown(number(l, "Ff_rms_pct"), 1), shown(number(l, "Fp_rms_pct"), 1)},
          ""});
   if (rows.empty()) return "";
-  return "\nREPLICAS PREDICTED FROM THE OTHERS, rms error in %\n" +
+  return '\n' + tr("REPLICAS PREDICTED FROM THE OTHERS, rms error in %") + '\n' +
          table({{"", Align::left}, {"Fc"}, {"Ff"}, {"Fp"}}, rows);
 }
 
 std::string material(const ordered_json& result) {
   const auto& m = object(result, "material");
   if (m.empty()) return "";
-  return paragraph("\nMATERIAL  ",
-                   fmt::format("{} ({}) stands whole in the result document, under "
-                               "material",
-                               word(m, "id"), word(m, "name")));
+  return paragraph('\n' + tr("MATERIAL  "),
+                   say("{} ({}) stands whole in the result document, under "
+                       "material",
+                       word(m, "id"), word(m, "name")));
 }
 
 }  // namespace
 
 std::string material_text(const ordered_json& result) {
   const auto confidence = number(result, "confidence");
-  return "MATERIAL FROM MEASURED CUTS\n" + made_by(result) +
-         paragraph(
-             "  ",
-             "intervals hold with a confidence of " +
-                 shown(confidence ? std::optional(100 * *confidence) : std::nullopt, 1) +
-                 " %") +
-         group(result, "cutting", "CUTTING FORCE") + group(result, "feed", "FEED FORCE") +
-         group(result, "passive", "PASSIVE FORCE") +
-         group(result, "taylor", "TOOL LIFE") + edges(result) +
-         group(result, "roughness", "ROUGHNESS") + labs(result) + replicas(result) +
+  return tr("MATERIAL FROM MEASURED CUTS") + '\n' + made_by(result) +
+         paragraph("  ",
+                   say("intervals hold with a confidence of {} %",
+                       shown(confidence ? std::optional(100 * *confidence) : std::nullopt,
+                             1))) +
+         group(result, "cutting", tr("CUTTING FORCE")) +
+         group(result, "feed", tr("FEED FORCE")) +
+         group(result, "passive", tr("PASSIVE FORCE")) +
+         group(result, "taylor", tr("TOOL LIFE")) + edges(result) +
+         group(result, "roughness", tr("ROUGHNESS")) + labs(result) + replicas(result) +
          material(result) + warnings(result);
 }
 

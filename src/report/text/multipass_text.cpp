@@ -1,13 +1,13 @@
-#include <fmt/format.h>
-
 #include <cmath>
 #include <string>
 #include <vector>
 
+#include "base/say.hpp"
 #include "certificate_words.hpp"
 #include "json_fields.hpp"
 #include "layout.hpp"
 #include "provenance.hpp"
+#include "result_words.hpp"
 #include "text.hpp"
 
 namespace turnwright::report {
@@ -16,21 +16,22 @@ namespace {
 using nlohmann::ordered_json;
 
 std::string multipass_header(const ordered_json& result) {
-  std::string out = "MULTI-PASS TURNING\n";
+  std::string out = tr("MULTI-PASS TURNING") + '\n';
   if (word(result, "status") != "ok")
-    return out + paragraph("status  ", word(result, "status"));
-  out += paragraph("cost    ", significant(number(result, "UC"), 8) + " per piece");
+    return out + paragraph(tr("status  "), spoken(word(result, "status")));
+  out += paragraph(tr("cost    "),
+                   say("{} per piece", significant(number(result, "UC"), 8)));
   if (const auto n = number(result, "n"))
-    out += paragraph("passes  ", shown(n, 0) + " roughing, 1 finishing");
+    out += paragraph(tr("passes  "), say("{} roughing, 1 finishing", shown(n, 0)));
   if (const auto c = result.find("certificate"); c != result.end()) {
-    out += paragraph("bound   ", significant(number(*c, "lower_bound"), 8) +
-                                     ": no allowed point costs less");
-    out += paragraph("proof   ", proof(*c));
+    out += paragraph(tr("bound   "), say("{}: no allowed point costs less",
+                                         significant(number(*c, "lower_bound"), 8)));
+    out += paragraph(tr("proof   "), proof(*c));
   }
   return out;
 }
 
-Row pass(const char* name, const ordered_json& x) {
+Row pass(const std::string& name, const ordered_json& x) {
   Row row{{name}, ""};
   for (const char* key : {"V", "f", "d", "T", "F_kgf", "P_kW", "Q_degC"})
     row.cells.push_back(significant(number(x, key), 6));
@@ -40,20 +41,23 @@ Row pass(const char* name, const ordered_json& x) {
 std::string multipass_conditions(const ordered_json& result) {
   const auto& rough = object(result, "rough");
   if (!rough.empty())
-    return "\nCONDITIONS\n" +
-           table({{"", Align::left},
-                  {"V m/min"},
-                  {"f mm/rev"},
-                  {"d mm"},
-                  {"T min"},
-                  {"F kgf"},
-                  {"P kW"},
-                  {"Q degC"}},
-                 {pass("rough", rough), pass("finish", object(result, "finish"))});
+    return '\n' + tr("CONDITIONS") + '\n' +
+           table(
+               {{"", Align::left},
+                {"V m/min"},
+                {"f mm/rev"},
+                {"d mm"},
+                {"T min"},
+                {"F kgf"},
+                {"P kW"},
+                {"Q degC"}},
+               {pass(tr("rough"), rough), pass(tr("finish"), object(result, "finish"))});
   if (!number(result, "V")) return "";
-  return "\nCONDITIONS\n" + table({{"V"}, {"f"}}, {{{significant(number(result, "V"), 6),
-                                                     significant(number(result, "f"), 6)},
-                                                    ""}});
+  return '\n' + tr("CONDITIONS") + '\n' +
+         table(
+             {{"V"}, {"f"}},
+             {{{significant(number(result, "V"), 6), significant(number(result, "f"), 6)},
+               ""}});
 }
 
 std::string binding(const ordered_json& result) {
@@ -68,19 +72,23 @@ std::string binding(const ordered_json& result) {
                     ""});
   }
   if (rows.empty()) return "";
-  return "\nBINDING  and what 10 % more of the limit does to the cost, to first order\n" +
-         table({{"limit", Align::left}, {"value"}, {"at"}, {"cost %"}}, rows);
+  return '\n' +
+         tr("BINDING  and what 10 % more of the limit does to the cost, to first order") +
+         '\n' +
+         table({{tr("limit"), Align::left}, {tr("value")}, {tr("at")}, {tr("cost %")}},
+               rows);
 }
 
 std::string counts(const ordered_json& result) {
   std::vector<Row> rows;
   for (const auto& c : list(result, "per_pass_count"))
     rows.push_back({{shown(number(c, "n"), 0), significant(number(c, "UC"), 8),
-                     significant(number(c, "lower_bound"), 8), word(c, "status")},
+                     significant(number(c, "lower_bound"), 8), spoken(word(c, "status"))},
                     ""});
   if (rows.empty()) return "";
-  return "\nPER NUMBER OF ROUGHING PASSES\n" +
-         table({{"n"}, {"cost"}, {"at least"}, {"status", Align::left}}, rows);
+  return '\n' + tr("PER NUMBER OF ROUGHING PASSES") + '\n' +
+         table({{"n"}, {tr("cost")}, {tr("at least")}, {tr("status"), Align::left}},
+               rows);
 }
 
 std::string multipass_conflicts(const ordered_json& result) {
@@ -89,17 +97,17 @@ std::string multipass_conflicts(const ordered_json& result) {
     if (c.is_string()) names.push_back(c.get<std::string>());
   if (names.empty()) return "";
   std::string out =
-      paragraph("\nCONFLICT  ", joined(names) +
-                                    " cannot be kept together; without any one of them "
-                                    "the others can");
+      paragraph('\n' + tr("CONFLICT  "),
+                say("{} cannot be kept together; without any one of them the others can",
+                    joined(names)));
   std::vector<Row> rows;
   for (const auto& r : list(result, "relax"))
-    rows.push_back(
-        {{word(r, "limit"), significant(number(r, "now"), 6),
-          number(r, "needed") ? significant(number(r, "needed"), 6) : "never suffices"},
-         ""});
+    rows.push_back({{word(r, "limit"), significant(number(r, "now"), 6),
+                     number(r, "needed") ? significant(number(r, "needed"), 6)
+                                         : tr("never suffices")},
+                    ""});
   if (!rows.empty())
-    out += table({{"opened alone", Align::left}, {"now"}, {"needed"}}, rows);
+    out += table({{tr("opened alone"), Align::left}, {tr("now")}, {tr("needed")}}, rows);
   return out;
 }
 

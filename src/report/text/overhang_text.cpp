@@ -8,6 +8,7 @@
 #include "provenance.hpp"
 #include "stability_words.hpp"
 #include "text.hpp"
+#include "turnwright/base/language.hpp"
 
 namespace turnwright::report {
 namespace {
@@ -28,7 +29,9 @@ std::string overhang_limits(const ordered_json& result) {
           shown(number(best, "n_rpm"), 0), significant(number(best, "ap_mm"), 3)},
          word(o, "why")});
   }
-  return table({{"overhang mm"}, {"least limit mm"}, {"best 1/min"}, {"depth mm"}}, rows);
+  return table(
+      {{tr("overhang mm")}, {tr("least limit mm")}, {tr("best 1/min")}, {tr("depth mm")}},
+      rows);
 }
 
 std::string overhang_cuts(const ordered_json& result) {
@@ -38,7 +41,7 @@ std::string overhang_cuts(const ordered_json& result) {
       out += paragraph("  " + overhang_name(o) + "  ",
                        fmt::format("{} 1/min, {} mm: {}", shown(number(p, "n_rpm"), 0),
                                    significant(number(p, "ap_mm"), 3), verdict_words(p)));
-  return out.empty() ? "" : "\nREQUESTED CUTS\n" + out;
+  return out.empty() ? "" : '\n' + tr("REQUESTED CUTS") + '\n' + out;
 }
 
 std::string tip_modes(const ordered_json& result) {
@@ -52,19 +55,20 @@ std::string tip_modes(const ordered_json& result) {
                          shown(number(m, "stiffness_N_mm"), 0)},
                         ""});
   if (rows.empty()) return "";
-  return "\nMODES AT THE TIP\n" + table({{"overhang mm"},
-                                         {"axis", Align::left},
-                                         {"Hz"},
-                                         {"damping ratio"},
-                                         {"N/mm"}},
-                                        rows);
+  return '\n' + tr("MODES AT THE TIP") + '\n' +
+         table({{tr("overhang mm")},
+                {tr("axis"), Align::left},
+                {"Hz"},
+                {tr("damping ratio")},
+                {"N/mm"}},
+               rows);
 }
 
 }  // namespace
 
 std::string overhang_text(const ordered_json& result) {
-  return "OVERHANG OF THE TOOL\n" + made_by(result) + "\nLIMITS\n" +
-         overhang_limits(result) + overhang_cuts(result) + tip_modes(result) +
+  return tr("OVERHANG OF THE TOOL") + '\n' + made_by(result) + '\n' + tr("LIMITS") +
+         '\n' + overhang_limits(result) + overhang_cuts(result) + tip_modes(result) +
          warnings(result) + assumption_lines(result);
 }
 

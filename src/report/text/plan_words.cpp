@@ -8,7 +8,9 @@
 #include <optional>
 
 #include "amounts.hpp"
+#include "base/say.hpp"
 #include "json_fields.hpp"
+#include "result_words.hpp"
 #include "turnwright/base/units.hpp"
 
 namespace turnwright::report {
@@ -24,7 +26,7 @@ std::string set_of(const ordered_json& member, const ordered_json& all) {
   const bool several = std::any_of(all.begin(), all.end(), [](const ordered_json& other) {
     return number(other, "set").value_or(0) > 1;
   });
-  return set && several ? "set " + shown(set, 0) + ": " : "";
+  return set && several ? say("set {}: ", shown(set, 0)) : "";
 }
 
 // |ln(needed/now)|: how far a limit has to move, whichever way opens it.
@@ -87,9 +89,9 @@ std::string what_stays(const ordered_json& result) {
   const auto &relax = list(result, "relax"), &conflicts = list(result, "conflicts");
   const bool stays = !relax.empty() && std::ranges::all_of(relax, in_set) &&
                      !std::ranges::all_of(conflicts, in_set);
-  return stays
-             ? "Relaxing limits is not enough: the conflicts that belong to no set stay."
-             : "";
+  return stays ? tr("Relaxing limits is not enough: the conflicts that belong to no set "
+                    "stay.")
+               : "";
 }
 
 std::string kind_words(std::string kind) {
@@ -97,15 +99,16 @@ std::string kind_words(std::string kind) {
   constexpr std::string_view kJoined = "runout";
   if (const auto at = kind.find(kJoined); at != kind.npos)
     kind.replace(at, kJoined.size(), "run-out");
-  return kind;
+  return spoken(kind);
 }
 
 std::string title_block(const ordered_json& result) {
   std::vector<std::string> parts;
-  for (const auto& [key, before] :
-       {std::pair{"drawing_number", ""}, {"revision", "revision "}, {"customer", "for "}})
+  for (const auto& [key, before] : {std::pair{"drawing_number", ""},
+                                    {"revision", to_translate("revision ")},
+                                    {"customer", to_translate("for ")}})
     if (const auto value = word(result, key); !value.empty())
-      parts.push_back(before + value);
+      parts.push_back(tr(before) + value);
   return joined(parts);
 }
 
@@ -121,8 +124,8 @@ std::string micrometres(const ordered_json& tolerance, const char* key) {
 
 std::string verdict(const ordered_json& tolerance) {
   const auto ours = word(tolerance, "verdict");
-  if (ours == "met-with-offset") return "offset";
-  return ours == "not-met" ? "NOT MET" : ours;
+  if (ours == "met-with-offset") return tr("offset");
+  return ours == "not-met" ? tr("NOT MET") : spoken(ours);
 }
 
 std::string other_verdict(const ordered_json& tolerance) {
@@ -130,7 +133,7 @@ std::string other_verdict(const ordered_json& tolerance) {
   if (!tolerance.contains("published_verdict") ||
       flag(tolerance, "published_verdict") == accepted)
     return "";
-  return accepted ? "not met" : "met";
+  return accepted ? tr("not met") : tr("met");
 }
 
 bool published_differ(const ordered_json& tolerances) {
@@ -153,16 +156,16 @@ bool keeps_too_few(const ordered_json& result) {
 std::string kept(const ordered_json& result) {
   const auto& worst = object(result, "worst_conformance");
   const auto p = number(worst, "P_conform");
-  if (!p) return "every limit is kept";
+  if (!p) return tr("every limit is kept");
   const auto percent = shown(100 * *p, 2), id = word(worst, "tolerance");
   if (keeps_too_few(result)) {
     const auto wanted = number(worst, "wanted");
     int digits = 2;  // as many as tell the two apart
     while (shown(100 * *p, digits) == shown(100 * *wanted, digits)) ++digits;
-    return fmt::format("kept nominally only: {} % of the parts keep {}, wanted are {} %",
-                       shown(100 * *p, digits), id, shown(100 * *wanted, digits));
+    return say("kept nominally only: {} % of the parts keep {}, wanted are {} %",
+               shown(100 * *p, digits), id, shown(100 * *wanted, digits));
   }
-  return fmt::format("every limit is kept, {} by the fewest parts, {} %", id, percent);
+  return say("every limit is kept, {} by the fewest parts, {} %", id, percent);
 }
 
 std::string money_of(const ordered_json& result, std::optional<double> value) {
@@ -175,12 +178,12 @@ std::string setting_up(const ordered_json& result) {
   const auto minutes = number(s, "min"), cost = number(s, "cost");
   if (!minutes || !cost) return "";
   const auto once =
-      fmt::format("{} and {} once per batch", duration(minutes), money_of(result, cost));
+      say("{} and {} once per batch", duration(minutes), money_of(result, cost));
   const auto share = number(s, "min_per_part");
   if (!share)
-    return once + "; not counted per part, because the request gives no batch size";
-  return fmt::format("{}, of which {} and {} are counted per part", once, duration(share),
-                     money_of(result, number(s, "cost_per_part")));
+    return say("{}; not counted per part, because the request gives no batch size", once);
+  return say("{}, of which {} and {} are counted per part", once, duration(share),
+             money_of(result, number(s, "cost_per_part")));
 }
 
 Stack stack_of(const ordered_json& tolerance) {
@@ -195,22 +198,22 @@ Stack stack_of(const ordered_json& tolerance) {
 
 std::vector<SpendingRow> spending(const ordered_json& result) {
   constexpr std::pair<const char*, const char*> kKinds[]{
-      {"cutting", "cutting"},
-      {"air", "in the air: approaches, overruns, rapids"},
-      {"tool_changes", "bringing in tools"},
-      {"operator_stops", "operator's stops"},
-      {"edges", "worn edges"},
-      {"loading", "loading"},
-      {"setup_share", "preparing the machine, share of the batch"},
-      {"stock", "the piece of stock"}};
+      {"cutting", to_translate("cutting")},
+      {"air", to_translate("in the air: approaches, overruns, rapids")},
+      {"tool_changes", to_translate("bringing in tools")},
+      {"operator_stops", to_translate("operator's stops")},
+      {"edges", to_translate("worn edges")},
+      {"loading", to_translate("loading")},
+      {"setup_share", to_translate("preparing the machine, share of the batch")},
+      {"stock", to_translate("the piece of stock")}};
   const auto& b = object(result, "breakdown");
   std::vector<SpendingRow> rows;
-  SpendingRow sum{"together"};
+  SpendingRow sum{tr("together")};
   for (const auto& [key, name] : kKinds) {
     const auto& share = object(b, key);
     const double time = number(share, "time_min").value_or(0),
                  cost = number(share, "cost").value_or(0);
-    if (time > 0 || cost > 0) rows.push_back({name, time, cost});
+    if (time > 0 || cost > 0) rows.push_back({tr(name), time, cost});
     sum.time_min += time;
     sum.cost += cost;
   }
@@ -222,7 +225,7 @@ std::string preparing(const ordered_json& result) {
   const auto share =
       number(object(object(result, "breakdown"), "setup_share"), "time_min");
   if (!share || !(*share > 0)) return "";
-  return ", " + duration(share) + " of it to prepare the machine";
+  return say(", {} of it to prepare the machine", duration(share));
 }
 
 std::string value_text(const ordered_json& value) {
@@ -231,7 +234,7 @@ std::string value_text(const ordered_json& value) {
     std::vector<std::string> parts;
     for (const auto& [key, member] : value.items()) {
       const auto text =
-          member.is_structured() ? "(" + value_text(member) + ")" : value_text(member);
+          member.is_structured() ? '(' + value_text(member) + ')' : value_text(member);
       parts.push_back(value.is_object() ? key + ' ' + text : text);
     }
     return joined(parts);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/say.hpp"
 #include "json_fields.hpp"
 #include "layout.hpp"
 #include "plan_words.hpp"
@@ -14,8 +15,8 @@ std::string made_by(const ordered_json& result) {
   const auto version = word(result, "turnwright_version");
   const auto digest = word(result, "request_digest");
   if (version.empty() || digest.empty()) return "";
-  return paragraph("made by ",
-                   "turnwright " + version + " from request " + digest.substr(0, 12));
+  return paragraph(tr("made by "),
+                   say("turnwright {} from request {}", version, digest.substr(0, 12)));
 }
 
 std::string assumption_lines(const ordered_json& result) {
@@ -29,14 +30,14 @@ std::string assumption_lines(const ordered_json& result) {
     out += "  " + clipped(lead + clipped(value, kWidth - taken) + why, kWidth) + '\n';
   }
   if (out.empty()) return "";
-  return "\nASSUMED  what the request left open\n" + out;
+  return '\n' + tr("ASSUMED  what the request left open") + '\n' + out;
 }
 
 std::string warnings(const ordered_json& result) {
   std::string out;
   for (const auto& warning : list(result, "warnings"))
     if (warning.is_string()) out += paragraph("  - ", warning.get<std::string>());
-  return out.empty() ? "" : "\nWARNINGS\n" + out;
+  return out.empty() ? "" : '\n' + tr("WARNINGS") + '\n' + out;
 }
 
 }  // namespace turnwright::report

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "amounts.hpp"
+#include "base/say.hpp"
 #include "json_fields.hpp"
 #include "layout.hpp"
 #include "provenance.hpp"
@@ -26,9 +27,11 @@ Row batch_row(const ordered_json& price) {
 }
 
 std::string batch_table(const ordered_json& part) {
-  std::vector<Column> columns{
-      {"batch"}, {"price"},    {"stock"},  {"run"},  {"set up"},
-      {"scrap"}, {"overhead"}, {"margin"}, {"time"}, {"made by", Align::left}};
+  std::vector<Column> columns{{tr("batch")},    {tr("price")},
+                              {tr("stock")},    {tr("run")},
+                              {tr("set up")},   {tr("scrap")},
+                              {tr("overhead")}, {tr("margin")},
+                              {tr("time")},     {tr("made by"), Align::left}};
   std::vector<Row> rows;
   bool choice = false;
   for (const auto& price : list(part, "prices")) {
@@ -47,18 +50,17 @@ std::string way_line(const ordered_json& way) {
   const auto by = word(way, "made_by");
   return paragraph(
       "  ",
-      fmt::format("{}{} kg of stock, {} kWh and {} kg of CO2 for a part; at least {} "
-                  "% of the parts conform{}",
-                  by.empty() ? "" : by + ": ", significant(number(way, "stock_kg"), 3),
-                  significant(number(energy, "kWh"), 2),
-                  significant(number(energy, "kg_CO2"), 2),
-                  shown(std::floor(1e4 * number(way, "conforming").value_or(0)) / 100, 2),
-                  flag(way, "proved") ? "" : "; not proved to be the cheapest"));
+      say("{}{} kg of stock, {} kWh and {} kg of CO2 for a part; at least {} "
+          "% of the parts conform{}",
+          by.empty() ? "" : by + ": ", significant(number(way, "stock_kg"), 3),
+          significant(number(energy, "kWh"), 2), significant(number(energy, "kg_CO2"), 2),
+          shown(std::floor(1e4 * number(way, "conforming").value_or(0)) / 100, 2),
+          flag(way, "proved") ? "" : tr("; not proved to be the cheapest")));
 }
 
 std::string quoted_part(const ordered_json& part) {
   auto text = fmt::format("\n{}\n", clipped(word(part, "name"), kPageWidth));
-  if (word(part, "status") != "ok") text += "  no way to make it was found\n";
+  if (word(part, "status") != "ok") text += tr("  no way to make it was found") + '\n';
   if (!list(part, "prices").empty()) text += batch_table(part);
   for (const auto& way : list(part, "ways")) text += way_line(way);
   for (const auto& a : list(part, "alternatives"))
@@ -73,10 +75,10 @@ std::string quoted_part(const ordered_json& part) {
 
 std::string quote_text(const ordered_json& result) {
   const auto currency = word(result, "currency");
-  auto text =
-      std::string("QUOTE\n") +
-      paragraph("prices of one part  ",
-                currency.empty() ? "in the currency of the rates" : "in " + currency);
+  auto text = tr("QUOTE") + '\n' +
+              paragraph(tr("prices of one part  "),
+                        currency.empty() ? tr("in the currency of the rates")
+                                         : say("in {}", currency));
   for (const auto& part : list(result, "parts")) text += quoted_part(part);
   return text + made_by(result);
 }

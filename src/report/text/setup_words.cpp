@@ -1,31 +1,33 @@
 #include "setup_words.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
+#include "base/say.hpp"
 #include "certificate_words.hpp"
 #include "json_fields.hpp"
+#include "result_words.hpp"
 
 namespace turnwright::report {
 namespace {
 
 using nlohmann::ordered_json;
 
-std::string clamped(const std::string& clamping, const std::string& end) {
-  const std::string other = end == "left" ? "right" : "left";
-  if (clamping == "chuck") return fmt::format("{} end in the chuck", end);
-  if (clamping == "chuck-steady")
-    return fmt::format("{} end in the chuck, on a steady rest", end);
+std::string end_words(const std::string& end) {
+  return end == "left" ? tr("left end") : tr("right end");
+}
+
+std::string clamped(const std::string& clamping, const std::string& hold) {
+  const auto end = end_words(hold), other = end_words(hold == "left" ? "right" : "left");
+  if (clamping == "chuck") return say("{} in the chuck", end);
+  if (clamping == "chuck-steady") return say("{} in the chuck, on a steady rest", end);
   if (clamping == "chuck-tailstock")
-    return fmt::format("{} end in the chuck, {} end on the tailstock centre", end, other);
+    return say("{} in the chuck, {} on the tailstock centre", end, other);
   if (clamping == "tailstock-follow")
-    return fmt::format(
-        "{} end in the chuck, {} end on the tailstock centre, a follow rest at the tool",
-        end, other);
+    return say("{} in the chuck, {} on the tailstock centre, a follow rest at the tool",
+               end, other);
   if (clamping == "between-centres")
-    return fmt::format("between centres, {} end at the headstock", end);
-  return fmt::format("{} end, {}", end, clamping);
+    return say("between centres, {} at the headstock", end);
+  return end + ", " + clamping;
 }
 
 // A setup that no clamping can hold names one that it also rejects.
@@ -45,15 +47,16 @@ bool same_conditions(const ordered_json& a, const ordered_json& b) {
 }  // namespace
 
 std::string holding(const ordered_json& setup) {
-  std::string text = held(setup) ? clamped(word(setup, "clamping"), word(setup, "hold"))
-                                 : word(setup, "hold") + " end, no clamping allowed can";
+  std::string text =
+      held(setup) ? clamped(word(setup, "clamping"), word(setup, "hold"))
+                  : say("{}, no clamping allowed can", end_words(word(setup, "hold")));
   if (const auto grip = number(setup, "grip_mm"))
-    text += fmt::format(", {} mm gripped", shown(grip, 1));
+    text += say(", {} mm gripped", shown(grip, 1));
   if (const auto force = number(setup, "grip_force_N"); force && *force > 0)
-    text += fmt::format(", jaws with {} kN", shown(*force / 1000, 1));
+    text += say(", jaws with {} kN", shown(*force / 1000, 1));
   const auto eased = number(setup, "finishing_grip_force_N");
   if (eased && eased < number(setup, "grip_force_N"))
-    text += fmt::format(", {} kN to finish", shown(*eased / 1000, 1));
+    text += say(", {} kN to finish", shown(*eased / 1000, 1));
   return text;
 }
 
@@ -89,13 +92,16 @@ namespace {
 std::string milled(const ordered_json& cut) {
   const double depth = number(cut, "limit_mm").value_or(0);
   const bool beyond = depth >= number(cut, "shown_mm").value_or(0);
-  return fmt::format(
-      "; {} lane{}, fz {} mm; stable to {}{} mm within {} % of the speed, {} % more than "
-      "the pass asked for",
-      shown(number(cut, "lanes"), 0), number(cut, "lanes") == 1 ? "" : "s",
-      shown(number(cut, "fz_mm"), 4), beyond ? "more than " : "", shown(depth, 3),
-      shown(100 * number(cut, "speed_margin").value_or(0), 1),
-      shown(100 * number(cut, "stability_margin").value_or(0), 0));
+  const auto lanes = shown(number(cut, "lanes"), 0);
+  const auto stable = shown(depth, 3);
+  return (number(cut, "lanes") == 1 ? say("; {} lane", lanes)
+                                    : say("; {} lanes", lanes)) +
+         say(", fz {} mm; stable to {} mm within {} % of the speed, {} % more than the "
+             "pass asked for",
+             shown(number(cut, "fz_mm"), 4),
+             beyond ? say("more than {}", stable) : stable,
+             shown(100 * number(cut, "speed_margin").value_or(0), 1),
+             shown(100 * number(cut, "stability_margin").value_or(0), 0));
 }
 
 }  // namespace
@@ -105,16 +111,17 @@ std::string note(const ordered_json& operation) {
   for (const auto& id : list(operation, "on"))
     if (id.is_string()) on.push_back(id.get<std::string>());
   for (const auto& c : list(operation, "constraints"))
-    if (flag(c, "binding")) binding.push_back(word(c, "name"));
+    if (flag(c, "binding")) binding.push_back(spoken_limit(word(c, "name")));
   const bool mills = operation.contains("milling");
   const auto direction = mills ? "" : word(operation, "direction");
   if (word(operation, "kind") == "fixed") {
-    const auto bound = binding.empty() ? "" : "; bound by " + joined(binding);
-    return joined(on) + "; catalogue data" + bound;
+    const auto bound = binding.empty() ? "" : say("; bound by {}", joined(binding));
+    return say("{}; catalogue data", joined(on)) + bound;
   }
-  std::string text = word(operation, "kind") + " " + joined(on);
-  if (direction == "from-chuck") text += ", away from the chuck";
-  text += binding.empty() ? "; no limit binds" : "; bound by " + joined(binding);
+  std::string text = spoken(word(operation, "kind")) + " " + joined(on);
+  if (direction == "from-chuck") text += tr(", away from the chuck");
+  text +=
+      binding.empty() ? tr("; no limit binds") : say("; bound by {}", joined(binding));
   if (mills) text += milled(operation.at("milling"));
   const auto& certificate = object(operation, "certificate");
   if (word(certificate, "kind") == "local") return text + "; " + perhaps(certificate);

@@ -1,13 +1,13 @@
 #include "setups.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "amounts.hpp"
+#include "base/say.hpp"
 #include "certificate_words.hpp"
 #include "json_fields.hpp"
 #include "layout.hpp"
+#include "result_words.hpp"
 #include "setup_words.hpp"
 
 namespace turnwright::report {
@@ -43,19 +43,19 @@ void add_rows(const ordered_json& operation, std::vector<Row>& rows) {
 }
 
 std::string conditions(const ordered_json& operations) {
-  if (operations.empty()) return "  No operations.\n";
+  if (operations.empty()) return tr("  No operations.") + '\n';
   std::vector<Row> rows;
   for (const auto& operation : operations) add_rows(operation, rows);
-  return table({{"operation", Align::left},
-                {"tool", Align::left},
-                {"no."},
+  return table({{tr("operation"), Align::left},
+                {tr("tool"), Align::left},
+                {tr("no.")},
                 {"ap mm"},
                 {"f mm/r"},
                 {"vc m/min"},
                 {"n 1/min"},
                 {"s"},
-                {"cost"},
-                {"gap"}},
+                {tr("cost")},
+                {tr("gap")}},
                rows);
 }
 
@@ -66,12 +66,15 @@ std::string setups(const ordered_json& plan_result) {
   const bool feasible = word(plan_result, "status") != "infeasible";
   std::size_t index = 0;
   for (const auto& setup : list(plan_result, "setups")) {
-    out += '\n' + paragraph(fmt::format("SETUP {}  ", ++index), "hold " + holding(setup));
+    out += '\n' + paragraph(say("SETUP {}  ", ++index), say("hold {}", holding(setup)));
     for (const auto& rejected : list(setup, "rejected"))
-      out +=
-          paragraph("  not ", word(rejected, "clamping") + ": " + word(rejected, "why"));
+      out += paragraph(tr("  not "),
+                       spoken(word(rejected, "clamping")) + ": " + word(rejected, "why"));
     if (!feasible && !list(setup, "operations").empty())
-      out += "  Conditions that come closest; they break limits, do not cut with them.\n";
+      out +=
+          "  " +
+          tr("Conditions that come closest; they break limits, do not cut with them.") +
+          '\n';
     out += conditions(list(setup, "operations"));
   }
   return out;

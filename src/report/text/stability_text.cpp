@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "base/say.hpp"
 #include "json_fields.hpp"
 #include "layout.hpp"
 #include "provenance.hpp"
@@ -19,10 +20,11 @@ constexpr std::size_t kShownSpeeds = 24;  // rows of a table
 std::string best(const ordered_json& result) {
   const auto found = result.find("best");
   if (found == result.end()) return "";
-  return "\nBEST CUT\n" +
-         paragraph("  ", found->is_null() ? "The machine has none of the speeds whose "
-                                            "limits are known, or none with the margins."
-                                          : best_words(*found));
+  return '\n' + tr("BEST CUT") + '\n' +
+         paragraph("  ", found->is_null()
+                             ? tr("The machine has none of the speeds whose "
+                                  "limits are known, or none with the margins.")
+                             : best_words(*found));
 }
 
 std::string points(const ordered_json& result) {
@@ -33,9 +35,9 @@ std::string points(const ordered_json& result) {
     rows.push_back({{shown(number(all[i], "n_rpm"), 0),
                      significant(number(all[i], "ap_mm")), verdict_words(all[i])},
                     ""});
-  std::string out = "\nREQUESTED CUTS\n";
+  std::string out = '\n' + tr("REQUESTED CUTS") + '\n';
   if (all.size() > kShownSpeeds)
-    out += fmt::format("  the first {} of {}\n", kShownSpeeds, all.size());
+    out += say("  the first {} of {}\n", kShownSpeeds, all.size());
   return out + table({{"1/min"}, {"mm"}, {"", Align::left}}, rows);
 }
 
@@ -45,9 +47,9 @@ std::string magic(const ordered_json& result) {
     all.push_back(fmt::format("{} ({} mm)", shown(number(m, "n_rpm"), 0),
                               significant(number(m, "ap_mm"), 3)));
   if (all.empty()) return "";
-  return paragraph(
-      "  ",
-      "speeds stable deeper than their neighbours, without a margin: " + joined(all));
+  return paragraph("  ",
+                   say("speeds stable deeper than their neighbours, without a margin: {}",
+                       joined(all)));
 }
 
 std::string speeds(const ordered_json& result) {
@@ -59,10 +61,10 @@ std::string speeds(const ordered_json& result) {
     rows.push_back({{shown(number(all[i], "n_rpm"), 0),
                      significant(number(all[i], "limit_mm")), limit_words(all[i])},
                     ""});
-  std::string out = "\nLIMITS\n";
+  std::string out = '\n' + tr("LIMITS") + '\n';
   if (step > 1)
-    out += fmt::format("  one in {} of {} speeds; --json has all\n", step, all.size());
-  return out + table({{"1/min"}, {"stable to mm"}, {"", Align::left}}, rows) +
+    out += say("  one in {} of {} speeds; --json has all\n", step, all.size());
+  return out + table({{"1/min"}, {tr("stable to mm")}, {"", Align::left}}, rows) +
          magic(result);
 }
 
@@ -80,8 +82,14 @@ std::string varied(const ordered_json& result) {
            word(v, "why")});
     }
   if (rows.empty()) return "";
-  return "\nSWINGING SPEED  stable to, mm; - where it is to the largest depth\n" +
-         table({{"1/min"}, {"+- %"}, {"times a turn"}, {"swinging"}, {"constant"}}, rows);
+  return '\n' + tr("SWINGING SPEED  stable to, mm; - where it is to the largest depth") +
+         '\n' +
+         table({{"1/min"},
+                {"+- %"},
+                {tr("times a turn")},
+                {tr("swinging")},
+                {tr("constant")}},
+               rows);
 }
 
 std::string modes(const ordered_json& result) {
@@ -93,8 +101,9 @@ std::string modes(const ordered_json& result) {
                        shown(number(m, "stiffness_N_mm"), 0)},
                       ""});
   if (rows.empty()) return "";
-  return "\nMODES  of the measured response\n" +
-         table({{"axis", Align::left}, {"Hz"}, {"damping ratio"}, {"N/mm"}}, rows);
+  return '\n' + tr("MODES  of the measured response") + '\n' +
+         table({{tr("axis"), Align::left}, {"Hz"}, {tr("damping ratio")}, {"N/mm"}},
+               rows);
 }
 
 std::string undecided(const ordered_json& result) {
@@ -104,15 +113,15 @@ std::string undecided(const ordered_json& result) {
                      fmt::format("{}: {} 1/min, {} mm: {}", word(u, "pointer"),
                                  significant(number(u, "n_rpm"), 6),
                                  significant(number(u, "ap_mm"), 6), word(u, "why")));
-  return out.empty() ? "" : "\nUNDECIDED\n" + out;
+  return out.empty() ? "" : '\n' + tr("UNDECIDED") + '\n' + out;
 }
 
 }  // namespace
 
 std::string stability_text(const ordered_json& result) {
-  return "STABILITY OF THE CUT\n" + made_by(result) + best(result) + points(result) +
-         speeds(result) + varied(result) + modes(result) + undecided(result) +
-         warnings(result) + assumption_lines(result);
+  return tr("STABILITY OF THE CUT") + '\n' + made_by(result) + best(result) +
+         points(result) + speeds(result) + varied(result) + modes(result) +
+         undecided(result) + warnings(result) + assumption_lines(result);
 }
 
 }  // namespace turnwright::report

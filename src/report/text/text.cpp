@@ -7,11 +7,13 @@
 #include <vector>
 
 #include "amounts.hpp"
+#include "base/say.hpp"
 #include "certificate_words.hpp"
 #include "json_fields.hpp"
 #include "layout.hpp"
 #include "plan_words.hpp"
 #include "provenance.hpp"
+#include "result_words.hpp"
 #include "setup_words.hpp"
 #include "setups.hpp"
 #include "stack.hpp"
@@ -24,25 +26,29 @@ using nlohmann::ordered_json;
 
 std::string header(const ordered_json& result) {
   const auto name = word(result, "name");
-  std::string out = name.empty() ? "PROCESS PLAN\n" : paragraph("PROCESS PLAN  ", name);
+  std::string out = name.empty() ? tr("PROCESS PLAN") + '\n'
+                                 : paragraph(tr("PROCESS PLAN") + "  ", name);
   if (const auto title = title_block(result); !title.empty())
-    out += paragraph("drawing ", title);
+    out += paragraph(tr("drawing "), title);
   if (word(result, "status") == "infeasible") {
-    out += paragraph("status  ", "infeasible");
+    out += paragraph(tr("status  "), tr("infeasible"));
     if (const auto c = result.find("certificate"); c != result.end())
-      out += paragraph("proof   ", proof(*c));
+      out += paragraph(tr("proof   "), proof(*c));
   } else {
-    out += paragraph("status  ", kept(result));
-    out += paragraph("cost    ",
-                     money_of(result, number(result, "cost_per_part")) + " per part");
-    out += paragraph("time    ", duration(number(result, "time_per_part_min")) +
-                                     " per part" + preparing(result));
+    out += paragraph(tr("status  "), kept(result));
+    out +=
+        paragraph(tr("cost    "),
+                  say("{} per part", money_of(result, number(result, "cost_per_part"))));
+    out += paragraph(tr("time    "),
+                     say("{} per part", duration(number(result, "time_per_part_min"))) +
+                         preparing(result));
     if (const auto profit = number(result, "profit_per_min"))
-      out += paragraph("profit  ", money_of(result, profit) + " per minute");
+      out += paragraph(tr("profit  "), say("{} per minute", money_of(result, profit)));
     if (const auto words = setting_up(result); !words.empty())
-      out += paragraph("set up  ", words);
+      out += paragraph(tr("set up  "), words);
     const auto certificate = result.find("certificate");
-    if (certificate != result.end()) out += paragraph("proof   ", proof(*certificate));
+    if (certificate != result.end())
+      out += paragraph(tr("proof   "), proof(*certificate));
   }
   return out + made_by(result);
 }
@@ -54,8 +60,8 @@ std::string breakdown(const ordered_json& result) {
   std::vector<Row> lines;
   for (const auto& r : rows)
     lines.push_back({{r.name, seconds(r.time_min), money(r.cost)}, ""});
-  return "\nTIME AND COST  per part\n" +
-         table({{"", Align::left}, {"s"}, {"cost"}}, lines);
+  return '\n' + tr("TIME AND COST  per part") + '\n' +
+         table({{"", Align::left}, {"s"}, {tr("cost")}}, lines);
 }
 
 // One sentence of each member, in the order of importance.
@@ -70,19 +76,23 @@ std::string numbered(const std::vector<std::string>& sentences) {
 std::string conflicts(const ordered_json& result) {
   const auto sentences = conflict_sentences(result);
   if (sentences.empty()) return "";
-  return "\nCONFLICTS  limits that cannot be kept together\n" + numbered(sentences);
+  return '\n' + tr("CONFLICTS  limits that cannot be kept together") + '\n' +
+         numbered(sentences);
 }
 
 std::string relaxations(const ordered_json& result) {
   if (word(result, "status") != "infeasible") return "";
-  std::string out = "\nLIMITS TO RELAX  ";
-  if (several_sets(list(result, "relax"))) out += "one of every set, ";
-  out += "the smallest change first\n";
+  const bool several = several_sets(list(result, "relax"));
+  const auto out =
+      '\n' +
+      (several ? tr("LIMITS TO RELAX  one of every set, the smallest change first")
+               : tr("LIMITS TO RELAX  the smallest change first")) +
+      '\n';
   const auto sentences = opening_sentences(result);
   if (sentences.empty())
-    return out +
-           "  No limit was found whose relaxation alone helps; the other changes tried "
-           "are listed below.\n";
+    return out + tr("  No limit was found whose relaxation alone helps; the other "
+                    "changes tried "
+                    "are listed below.\n");
   const auto stays = what_stays(result);
   return out + numbered(sentences) + (stays.empty() ? "" : paragraph("  ", stays));
 }
@@ -91,11 +101,12 @@ std::string remedies(const ordered_json& result) {
   const auto& all = list(result, "remedies");
   std::string out;
   if (!all.empty())
-    out = "\nOTHER CHANGES  each line alone makes the part feasible\n" +
+    out = '\n' + tr("OTHER CHANGES  each line alone makes the part feasible") + '\n' +
           numbered(sentences_of(all));
   const auto& tried = list(result, "tried");
   if (!tried.empty())
-    out += "\nTRIED WITHOUT SUCCESS  each alone\n" + numbered(sentences_of(tried));
+    out += '\n' + tr("TRIED WITHOUT SUCCESS  each alone") + '\n' +
+           numbered(sentences_of(tried));
   return out;
 }
 
@@ -103,26 +114,26 @@ std::string tolerances(const ordered_json& result) {
   std::vector<Row> rows;
   for (const auto& t : list(result, "tolerances")) {
     const auto published = other_verdict(t);
-    rows.push_back(
-        {{word(t, "id"), kind_words(word(t, "kind")), word(t, "of"),
-          micrometres(t, "predicted_mm"), micrometres(t, "allowed_mm"),
-          micrometres(t, "margin_mm"), kept_by(t), verdict(t)},
-         published.empty() ? "" : "by the published acceptance equations: " + published});
+    rows.push_back({{word(t, "id"), kind_words(word(t, "kind")), word(t, "of"),
+                     micrometres(t, "predicted_mm"), micrometres(t, "allowed_mm"),
+                     micrometres(t, "margin_mm"), kept_by(t), verdict(t)},
+                    published.empty()
+                        ? ""
+                        : say("by the published acceptance equations: {}", published)});
   }
   if (rows.empty()) return "";
-  return "\nTOLERANCES\n" +
-         paragraph(
-             "  ",
-             "predicted, allowed and margin in \u00b5m; kept: by so many of the parts; "
-             "offset: met with the tool's offset or corrected path") +
-         table({{"id", Align::left},
-                {"kind", Align::left},
-                {"of", Align::left},
-                {"predicted"},
-                {"allowed"},
-                {"margin"},
-                {"kept %"},
-                {"verdict", Align::left}},
+  return '\n' + tr("TOLERANCES") + '\n' +
+         paragraph("  ", tr("predicted, allowed and margin in \u00b5m; kept: by so many "
+                            "of the parts; "
+                            "offset: met with the tool's offset or corrected path")) +
+         table({{tr("id"), Align::left},
+                {tr("kind"), Align::left},
+                {tr("of"), Align::left},
+                {tr("predicted")},
+                {tr("allowed")},
+                {tr("margin")},
+                {tr("kept %")},
+                {tr("verdict"), Align::left}},
                rows);
 }
 
@@ -137,9 +148,9 @@ std::string budget(const ordered_json& result) {
     }
   if (stacks.empty()) return "";
   const auto all = sources(stacks);
-  std::vector<Column> columns{{"id", Align::left}, {"width"}};
-  for (const auto& source : all) columns.push_back({clipped(source, 11)});
-  columns.push_back({"left"});
+  std::vector<Column> columns{{tr("id"), Align::left}, {tr("width")}};
+  for (const auto& source : all) columns.push_back({clipped(spoken(source), 11)});
+  columns.push_back({say("left{}", "")});  // what remains, not the side
   std::vector<Row> rows;
   for (std::size_t i = 0; i < stacks.size(); ++i) {
     Row row{{word(*tolerances[i], "id"), micrometres(*tolerances[i], "width_mm")}, ""};
@@ -152,12 +163,13 @@ std::string budget(const ordered_json& result) {
     row.cells.push_back(shown(stacks[i].left_um, 1));
     rows.push_back(std::move(row));
   }
-  return "\nBUDGET\n" +
+  return '\n' + tr("BUDGET") + '\n' +
          paragraph(
              "  ",
-             "what uses up each tolerance's width, \u00b5m; independent sources add by "
-             "squares, so all shares but the deflection are scaled down in proportion "
-             "until the row adds up to the width") +
+             tr("what uses up each tolerance's width, \u00b5m; independent sources add "
+                "by "
+                "squares, so all shares but the deflection are scaled down in proportion "
+                "until the row adds up to the width")) +
          table(columns, rows);
 }
 
@@ -188,23 +200,23 @@ std::string offsets(const ordered_json& result) {
     rows.push_back({{word(o, "on"), setup_number(o), shown(um, 1)}, ""});
   }
   if (rows.empty()) return "";
-  return "\nOFFSETS\n" +
+  return '\n' + tr("OFFSETS") + '\n' +
          paragraph(
              "  ",
-             "\u00b5m on the radius, or along the axis, by which every pass over the "
-             "surface is moved to the middle of its size; the first part shows what "
-             "is still missing") +
-         table({{"on", Align::left}, {"setup"}, {"offset"}}, rows);
+             tr("\u00b5m on the radius, or along the axis, by which every pass over the "
+                "surface is moved to the middle of its size; the first part shows what "
+                "is still missing")) +
+         table({{tr("on"), Align::left}, {tr("setup")}, {tr("offset")}}, rows);
 }
 
 std::string compensation(const ordered_json& result) {
   std::string out;
   for (const auto& c : list(result, "compensation"))
-    out +=
-        paragraph("  ", fmt::format("{} in setup {}", word(c, "on"), setup_number(c))) +
-        across(list(c, "table_mm"));
+    out += paragraph("  ", say("{} in setup {}", word(c, "on"), setup_number(c))) +
+           across(list(c, "table_mm"));
   if (out.empty()) return "";
-  return "\nCOMPENSATION  add dr to the radius of the tool path at z\n" + out;
+  return '\n' + tr("COMPENSATION  add dr to the radius of the tool path at z") + '\n' +
+         out;
 }
 
 std::string prices(const ordered_json& result) {
@@ -215,31 +227,33 @@ std::string prices(const ordered_json& result) {
   for (std::size_t i = 0; i < std::min(kMost, all.size()); ++i)
     sentences.push_back(sentence_of(all[i]));
   std::string out =
-      "\nPRICES  what relaxing each limit by 10 % would save, to first order\n" +
-      numbered(sentences);
+      '\n' + tr("PRICES  what relaxing each limit by 10 % would save, to first order") +
+      '\n' + numbered(sentences);
   if (all.size() > kMost)
-    out += fmt::format("  {} smaller ones are in the result document.\n",
-                       all.size() - kMost);
+    out += "  " + say("{} smaller ones are in the result document.", all.size() - kMost) +
+           '\n';
   return out;
 }
 
 std::string what_if(const ordered_json& result) {
   const auto& all = list(result, "what_if");
   if (all.empty()) return "";
-  return "\nWHAT IF  planned anew with a change\n" + numbered(sentences_of(all));
+  return '\n' + tr("WHAT IF  planned anew with a change") + '\n' +
+         numbered(sentences_of(all));
 }
 
 std::string rules(const ordered_json& result) {
   const auto& all = list(result, "rules");
   if (all.empty()) return "";
-  return "\nRULES  of the shop, the part planned without each\n" +
+  return '\n' + tr("RULES  of the shop, the part planned without each") + '\n' +
          numbered(sentences_of(all));
 }
 
 std::string alternatives(const ordered_json& result) {
   const auto& all = list(result, "alternatives");
   if (all.empty()) return "";
-  return "\nALTERNATIVES  each combination, planned\n" + numbered(sentences_of(all));
+  return '\n' + tr("ALTERNATIVES  each combination, planned") + '\n' +
+         numbered(sentences_of(all));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <limits>
 #include <vector>
 
+#include "base/say.hpp"
 #include "document/json/file.hpp"
 #include "document/json/reader.hpp"
 #include "turnwright/base/pattern.hpp"
@@ -48,7 +49,7 @@ Stored read_manifest(const fs::path& file) {
 }
 
 std::string told(const BatchInput::Contents& input) {
-  return std::to_string(input.lines) + " lines, SHA-256 " + input.sha256;
+  return say("{} lines, SHA-256 {}", input.lines, input.sha256);
 }
 
 void require_same(const fs::path& file, const Stored& begun, const BatchManifest& now) {
@@ -56,8 +57,8 @@ void require_same(const fs::path& file, const Stored& begun, const BatchManifest
   const auto same = [&](const char* pointer, const std::string& got,
                         const std::string& expected) {
     if (got != expected)
-      problems.add(
-          {pointer, got, expected + ", with which this batch was begun", "changed"});
+      problems.add({pointer, got, say("{}, with which this batch was begun", expected),
+                    "changed"});
   };
   same("/turnwright_version", std::string(version()), begun.version);
   same("/input", told(now.input), told(begun.manifest.input));
@@ -100,8 +101,7 @@ BatchSummary read_summary(const fs::path& file) {
   r.finish();
   problems.throw_if_any();
   if (records != summary.counts.records())
-    refuse(file, std::to_string(records) + " records",
-           "ok, infeasible and errors together");
+    refuse(file, say("{} records", records), tr("ok, infeasible and errors together"));
   return summary;
 }
 
@@ -197,9 +197,10 @@ BatchFolder::BatchFolder(fs::path folder, const BatchInput::Contents& input,
     require_same(file, begun, manifest_);
   } else {
     if (strange)
-      refuse(*strange, "something of no batch: there is no manifest.json",
-             "a folder without results.jsonl, summary.json and work, or one that a batch "
-             "was begun in");
+      refuse(
+          *strange, tr("something of no batch: there is no manifest.json"),
+          tr("a folder without results.jsonl, summary.json and work, or one that a batch "
+             "was begun in"));
     make_folder(work());
     NewFile out(file, work());
     out.write(manifest_.text());
@@ -231,9 +232,10 @@ std::optional<BatchSummary> BatchFolder::complete() const {
   const auto summary = read_summary(summary_file);
   const auto found = BatchInput(file).contents();
   if (found.bytes != summary.bytes || found.sha256 != summary.sha256)
-    refuse(file, std::to_string(found.bytes) + " bytes, SHA-256 " + found.sha256,
-           std::to_string(summary.bytes) + " bytes, SHA-256 " + summary.sha256 +
-               ", as this batch wrote it; without the file it is made anew");
+    refuse(file, say("{} bytes, SHA-256 {}", found.bytes, found.sha256),
+           say("{} bytes, SHA-256 {}, as this batch wrote it; without the file it is "
+               "made anew",
+               summary.bytes, summary.sha256));
   remove_work(work());
   return summary;
 }
@@ -252,12 +254,13 @@ BatchSummary BatchFolder::assemble(BatchInput& input) const {
           summary.bytes += static_cast<std::int64_t>(some.size());
         });
     if (!counts)
-      refuse(chunk_file(chunk), "no whole chunk", "the records of this batch; run again");
+      refuse(chunk_file(chunk), tr("no whole chunk"),
+             tr("the records of this batch; run again"));
     summary.counts += *counts;
   }
   if (input.contents() != manifest_.input)
-    refuse(input.file(), "another content than when the run began",
-           "a file that nobody changes meanwhile");
+    refuse(input.file(), tr("another content than when the run began"),
+           tr("a file that nobody changes meanwhile"));
   summary.sha256 = digest.hex();
   out.publish();
   NewFile told(folder_ / "summary.json", work());
@@ -270,8 +273,9 @@ BatchSummary BatchFolder::assemble(BatchInput& input) const {
 FolderLock::FolderLock(const fs::path& folder)
     : descriptor_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
   if (descriptor_ >= 0 && ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) return;
-  const std::string why = errno == EWOULDBLOCK ? "another run is at work on this batch"
-                                               : std::strerror(errno);
+  const std::string why = errno == EWOULDBLOCK
+                              ? tr("another run is at work on this batch")
+                              : std::strerror(errno);
   if (descriptor_ >= 0) ::close(descriptor_);
   throw OutputError(folder.string() + ": " + why);
 }

@@ -10,6 +10,7 @@
 
 #include "document/json/parse.hpp"
 #include "turnwright/base/errors.hpp"
+#include "turnwright/base/language.hpp"
 
 namespace turnwright::service {
 namespace {
@@ -18,7 +19,8 @@ constexpr std::size_t kBuffer = 1 << 18;
 constexpr std::size_t kLongest = document::ParseLimits{}.bytes + 1;
 
 [[noreturn]] void unreadable(const std::filesystem::path& file, const std::string& got) {
-  throw InputError(file.string(), {{"", got, "a file with one request a line", "file"}});
+  throw InputError(file.string(),
+                   {{"", got, tr("a file with one request a line"), "file"}});
 }
 
 }  // namespace
@@ -27,14 +29,14 @@ BatchInput::BatchInput(const std::filesystem::path& file)
     : file_(file), buffer_(kBuffer) {
   struct stat about {};
   if (::stat(file.c_str(), &about) == 0 && !S_ISREG(about.st_mode))
-    unreadable(file, "no regular file");  // a pipe could not be read a second time
+    unreadable(file, tr("no regular file"));  // a pipe could not be read a second time
   descriptor_ = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor_ < 0) unreadable(file, "nothing readable");
+  if (descriptor_ < 0) unreadable(file, tr("nothing readable"));
 }
 
 BatchInput::BatchInput(int descriptor, std::filesystem::path file)
     : file_(std::move(file)), descriptor_(descriptor), buffer_(kBuffer) {
-  if (descriptor_ < 0) unreadable(file_, "nothing readable");
+  if (descriptor_ < 0) unreadable(file_, tr("nothing readable"));
 }
 
 BatchInput::~BatchInput() { ::close(descriptor_); }

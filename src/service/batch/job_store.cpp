@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "base/say.hpp"
 #include "fatal_lines.hpp"
 #include "line.hpp"
 #include "spool.hpp"
@@ -47,11 +48,11 @@ bool is_new(SQLite::Database& database) {
   const int own = integer(database,
                           "SELECT count(*) FROM sqlite_master WHERE name IN "
                           "('job', 'line', 'line_digest')");
-  if (own != 3) throw std::runtime_error("a database of another program");
+  if (own != 3) throw std::runtime_error(tr("a database of another program"));
   if (version != kSchemaVersion)
-    throw std::runtime_error("a job store of version " + std::to_string(version) +
-                             ", but this program reads only version " +
-                             std::to_string(kSchemaVersion));
+    throw std::runtime_error(
+        say("a job store of version {}, but this program reads only version {}", version,
+            kSchemaVersion));
   return false;
 }
 

@@ -7,6 +7,7 @@
 #include "service/digest.hpp"
 #include "service/problem_list.hpp"
 #include "turnwright/base/cancelled.hpp"
+#include "turnwright/base/language.hpp"
 
 namespace turnwright::service {
 namespace {
@@ -32,10 +33,10 @@ BatchRecord failed(const std::string& name, const std::string& title,
       BatchStatus::error};
 }
 
-BatchRecord internal_error(const char* detail) {
-  return {
-      one_line({{"status", "error"}, {"title", "internal error"}, {"detail", detail}}),
-      BatchStatus::error};
+BatchRecord internal_error(const std::string& detail) {
+  return {one_line(
+              {{"status", "error"}, {"title", tr("internal error")}, {"detail", detail}}),
+          BatchStatus::error};
 }
 
 }  // namespace
@@ -45,7 +46,7 @@ BatchRequest read_batch_line(const std::string& line) {
   document::Problems problems{.document = "line"};
   document::Reader r = document::Reader(json, problems).as_object();
   const auto names = row_names();
-  const auto row = r.at("name", "the name of a request").as_choice(names);
+  const auto row = r.at("name", tr("the name of a request")).as_choice(names);
   BatchRequest request{&requests()[row], r.object("document").json(), {}};
   r.finish();
   problems.throw_if_any();
@@ -66,33 +67,33 @@ BatchRecord batch_record(const BatchRequest& request, const Context& context) {
   } catch (const InputError& error) {
     return {one_line({{"name", name},
                       {"status", "error"},
-                      {"title", "wrong input"},
+                      {"title", tr("wrong input")},
                       {"errors", problem_list(error.problems())}}),
             BatchStatus::error};
   } catch (const ModelRangeError& error) {
-    return failed(name, "outside a model's range", error.what());
+    return failed(name, tr("outside a model's range"), error.what());
   } catch (const Cancelled&) {
     throw;
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
-    return failed(name, "internal error", error.what());
+    return failed(name, tr("internal error"), error.what());
   }
 }
 
 BatchRecord batch_record(const InputError& error) {
   return {one_line({{"status", "error"},
-                    {"title", "wrong line"},
+                    {"title", tr("wrong line")},
                     {"errors", problem_list(error.problems())}}),
           BatchStatus::error};
 }
 
 BatchRecord batch_record(const std::bad_alloc&) {
-  return internal_error("not enough memory");
+  return internal_error(tr("not enough memory"));
 }
 
 BatchRecord fatal_record() {
-  return internal_error("the process ended while this line was computed");
+  return internal_error(tr("the process ended while this line was computed"));
 }
 
 std::string numbered(std::int64_t number, const std::string& text) {

@@ -8,6 +8,8 @@
 #include <sstream>
 #include <thread>
 
+#include "base/say.hpp"
+
 namespace turnwright::service {
 namespace {
 
@@ -94,9 +96,9 @@ SlurmBatch::SlurmBatch(BatchInput& input, const BatchFolder& folder, SlurmOption
 std::string SlurmBatch::submit() {
   const auto waiting = queue(name_);
   if (waiting && !waiting->empty())
-    throw OutputError(folder_.path().string() + ": " + std::to_string(waiting->size()) +
-                      " tasks of this batch are in Slurm's queue; --reconcile waits for "
-                      "them");
+    throw OutputError(
+        say("{}: {} tasks of this batch are in Slurm's queue; --reconcile waits for them",
+            folder_.path().string(), waiting->size()));
   const auto tasks = missing_tasks();
   return tasks.empty() ? "" : submit(tasks);
 }
@@ -110,12 +112,12 @@ void SlurmBatch::complete(const std::function<void(const std::string&)>& tell) {
     fruitless = least == 0 || tasks.size() < least ? 0 : fruitless + 1;
     least = tasks.size();
     if (fruitless == kFruitless)
-      throw OutputError(folder_.path().string() + ": tasks " + ranges(tasks) +
-                        " bring nothing; see " + folder_.work().string() +
-                        "/slurm-*.log");
+      throw OutputError(say("{}: tasks {} bring nothing; see {}/slurm-*.log",
+                            folder_.path().string(), ranges(tasks),
+                            folder_.work().string()));
     const auto array = submit(tasks);
-    tell("tasks " + ranges(tasks) + " of " + std::to_string(tasks_) +
-         " are missing: submitted as array " + array);
+    tell(say("tasks {} of {} are missing: submitted as array {}", ranges(tasks), tasks_,
+             array));
   }
 }
 
@@ -150,7 +152,7 @@ std::string SlurmBatch::submit(const std::vector<std::int64_t>& tasks) {
                  std::to_string(tasks_) + "\"\n");
   const auto number = output_of(
       "sbatch --parsable --chdir=" + quoted(script.parent_path()) + ' ' + quoted(script));
-  if (!number) throw OutputError(script.string() + ": sbatch did not take it");
+  if (!number) throw OutputError(say("{}: sbatch did not take it", script.string()));
   return number->substr(0, number->find_first_of(";\n"));
 }
 
@@ -163,7 +165,8 @@ void SlurmBatch::wait() {
       heard = steady_clock::now();
       std::for_each(tasks->begin(), tasks->end(), release);
     } else if (steady_clock::now() - heard > kLongestSilence) {
-      throw OutputError(folder_.path().string() + ": Slurm has not answered for long");
+      throw OutputError(
+          say("{}: Slurm has not answered for long", folder_.path().string()));
     }
   }
 }

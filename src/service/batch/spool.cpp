@@ -8,14 +8,15 @@
 #include <cstring>
 #include <string>
 
+#include "base/say.hpp"
 #include "service/output.hpp"
 
 namespace turnwright::service {
 namespace {
 
 [[noreturn]] void not_kept(const std::filesystem::path& file) {
-  throw OutputError(file.string() +
-                    ": the lines of a batch cannot be kept: " + std::strerror(errno));
+  throw OutputError(say("{}: the lines of a batch cannot be kept: {}", file.string(),
+                        std::strerror(errno)));
 }
 
 }  // namespace

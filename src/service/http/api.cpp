@@ -6,6 +6,7 @@
 #include <charconv>
 #include <functional>
 
+#include "base/say.hpp"
 #include "document/json/parse.hpp"
 #include "openapi.hpp"
 #include "page.hpp"
@@ -49,8 +50,7 @@ std::optional<std::int64_t> number(std::string_view text) {
 Reply wrong_type(const Call& call, const std::string& wanted) {
   return problem(
       415, "media-type",
-      "got Content-Type '" + call.content_type + "', expected " + wanted + " (UTF-8)",
-      call);
+      say("got Content-Type '{}', expected {} (UTF-8)", call.content_type, wanted), call);
 }
 
 ordered_json to_json(const Job& job) {
@@ -85,7 +85,7 @@ Reply answer_request(const Request& row, Answer answer, const Call& call,
   try {
     request = document::parse(call.body, row.name);
   } catch (const InputError& error) {
-    return problem(400, "no-json", "the body is not a JSON document", call,
+    return problem(400, "no-json", tr("the body is not a JSON document"), call,
                    error.problems());
   }
   try {
@@ -93,8 +93,8 @@ Reply answer_request(const Request& row, Answer answer, const Call& call,
   } catch (const InputError& error) {
     const auto count = error.problems().size();
     return problem(422, "wrong-input",
-                   count == 1 ? "the document has a problem"
-                              : fmt::format("the document has {} problems", count),
+                   count == 1 ? tr("the document has a problem")
+                              : say("the document has {} problems", count),
                    call, error.problems());
   } catch (const ModelRangeError& error) {
     return problem(422, "model-range", error.what(), call);
@@ -133,7 +133,7 @@ namespace {
 Reply plain(std::string text) { return {200, "text/plain; charset=utf-8", text, {}}; }
 
 Reply missing(const Call& call) {
-  return problem(404, "not-found", "nothing is at " + std::string(call.path()), call);
+  return problem(404, "not-found", say("nothing is at {}", call.path()), call);
 }
 
 /// The route of a path.
@@ -151,22 +151,22 @@ std::optional<Reply> wrong_query(const std::string& parameter, const Call& call)
   bool given = false;
   for (const auto& [name, value] : call.query()) {
     const auto add = [&wrong, n = std::string(name),
-                      got = '"' + std::string(value) + '"'](const char* expected,
+                      got = '"' + std::string(value) + '"'](const std::string& expected,
                                                             const char* code) {
       wrong.push_back({n, got, expected, code});
     };
     if (name != parameter)
-      add("no such parameter", "unknown-key");
+      add(tr("no such parameter"), "unknown-key");
     else if (std::exchange(given, true))
-      add("the parameter once", "duplicate");
+      add(tr("the parameter once"), "duplicate");
     else if (!number(value))
-      add("an integer >= 1", "range");
+      add(tr("an integer >= 1"), "range");
   }
   if (wrong.empty()) return std::nullopt;
   std::string names;
   for (const auto& problem : wrong)
     names += (names.empty() ? "" : ", ") + problem.pointer;
-  return problem(400, "query", "wrong in the query: " + names, call, wrong);
+  return problem(400, "query", say("wrong in the query: {}", names), call, wrong);
 }
 
 Reply job_reply(Batches& batches, std::int64_t id, const Call& call) {
@@ -187,8 +187,8 @@ Reply submit(Batches& batches, const Call& call, const std::stop_token& stop) {
     return wrong_type(call, "application/jsonl");
   const auto id = stored(batches.store(), call, stop);
   if (!id)
-    return problem(413, "lines",
-                   fmt::format("expected at most {} lines", JobStore::kMostLines), call);
+    return problem(413, "lines", say("expected at most {} lines", JobStore::kMostLines),
+                   call);
   batches.wake();
   Reply reply = job_reply(batches, *id, call);
   reply.status = 202;
@@ -331,11 +331,11 @@ std::string HttpApi::route(const Call& call) const {
 std::optional<Reply> HttpApi::at_once(const Call& call) const {
   const auto known = {"GET", "HEAD", "POST", "PUT", "PATCH", "DELETE", "OPTIONS"};
   if (std::find(known.begin(), known.end(), call.method) == known.end())
-    return problem(501, "method", call.method + " is not for this server", call);
+    return problem(501, "method", say("{} is not for this server", call.method), call);
   if (call.method == "OPTIONS" && call.target == "*")
     return methods("GET, HEAD, POST, DELETE");
   if (!call.target.starts_with('/'))
-    return problem(400, "target", "got '" + call.target + "', expected a path", call);
+    return problem(400, "target", say("got '{}', expected a path", call.target), call);
   const auto given = segments(call.path());
   std::string allowed;
   for (const auto& route : routes()) {
@@ -349,7 +349,8 @@ std::optional<Reply> HttpApi::at_once(const Call& call) const {
   if (call.method == "OPTIONS") return reply;
   auto headers = std::move(reply.headers);
   reply = problem(405, "method",
-                  call.method + " is not for this path, only " + headers[0].second, call);
+                  say("{} is not for this path, only {}", call.method, headers[0].second),
+                  call);
   reply.headers = std::move(headers);
   return reply;
 }

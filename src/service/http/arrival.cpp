@@ -6,6 +6,7 @@
 #include "reserve.hpp"
 #include "service/log.hpp"
 #include "service/output.hpp"
+#include "turnwright/base/language.hpp"
 
 namespace turnwright::service {
 namespace {
@@ -133,7 +134,8 @@ asio::awaitable<Arrived> read_call(ServerState& state, Connection& connection) {
   if (!all.ec && parser.content_length() &&
       *parser.content_length() > HttpApi::body_limit(call))
     all.ec = http::error::body_limit;
-  if (!all.ec && !MemoryReserve::refill()) all.refused = busy("too little memory", call);
+  if (!all.ec && !MemoryReserve::refill())
+    all.refused = busy(to_translate("too little memory"), call);
   if (!all.ec && !all.refused) all.refused = objection(state, parser, call);
   if (!all.ec && !all.refused) all.refused = refused_unread(state, parser, call);
   if (all.ec || all.refused) co_return all;

@@ -7,6 +7,7 @@
 
 #include "alarm.hpp"
 #include "arrival.hpp"
+#include "base/say.hpp"
 #include "call_log.hpp"
 #include "refusal.hpp"
 #include "service/log.hpp"
@@ -90,7 +91,7 @@ struct Pending {
 Reply fault(const Call& call, const char* what) {
   try {
     log_fault(call, what);
-    return problem(500, "fault", "a fault of this program; the log has more", call);
+    return problem(500, "fault", tr("a fault of this program; the log has more"), call);
   } catch (const std::exception&) {
     return {500, "", "", {}};
   }
@@ -120,7 +121,8 @@ void compute(const HttpApi& api, Pending& pending) {
   if (pending.share.resize(reply.body.size())) return;
   reply = {503, "", "", {}};
   try {
-    reply = busy("other answers fill the memory for them (--body-memory)", pending.call);
+    reply = busy(to_translate("other answers fill the memory for them (--body-memory)"),
+                 pending.call);
   } catch (const std::bad_alloc&) {  // the short answer will do
   }
 }
@@ -181,10 +183,10 @@ asio::awaitable<std::optional<Reply>> computed(ServerState& state, Connection& c
   if (pending->gone) co_return std::nullopt;
   if (pending->ready) co_return std::move(pending->reply);
   pending->stop.request_stop();
-  co_return problem(504, "deadline",
-                    "not done within " + std::to_string(state.options.deadline.count()) +
-                        " ms; send it as a batch",
-                    pending->call);
+  co_return problem(
+      504, "deadline",
+      say("not done within {} ms; send it as a batch", state.options.deadline.count()),
+      pending->call);
 }
 
 /// The call as it is computed, with its body.
@@ -275,8 +277,8 @@ asio::awaitable<void> turn_away(ServerState& state, tcp::socket socket) {
   try {
     Connection connection(std::move(socket));
     const Call nobody;
-    if (co_await write(state, connection, nobody, busy("too many connections", nobody),
-                       false))
+    if (co_await write(state, connection, nobody,
+                       busy(to_translate("too many connections"), nobody), false))
       co_await close(connection);
   } catch (const std::exception& error) {
     note_lost(error);

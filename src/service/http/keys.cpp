@@ -6,6 +6,7 @@
 #include <boost/algorithm/string/predicate.hpp>
 #include <fstream>
 
+#include "base/say.hpp"
 #include "server.hpp"
 #include "service/digest.hpp"
 
@@ -22,10 +23,12 @@ bool is_key(const std::string& line) {
 
 std::vector<std::string> read_keys(const std::filesystem::path& file) {
   if (std::filesystem::is_directory(file))
-    throw InputError(file.string(), {{"", "no regular file", "a file of keys", "file"}});
+    throw InputError(file.string(),
+                     {{"", tr("no regular file"), tr("a file of keys"), "file"}});
   std::ifstream in(file);
   if (!in)
-    throw InputError(file.string(), {{"", "nothing readable", "a file of keys", "file"}});
+    throw InputError(file.string(),
+                     {{"", tr("nothing readable"), tr("a file of keys"), "file"}});
   std::vector<std::string> keys;
   std::vector<Problem> problems;
   std::string line;
@@ -35,12 +38,11 @@ std::vector<std::string> read_keys(const std::filesystem::path& file) {
     if (is_key(line))
       keys.push_back(line);
     else  // a key is not shown
-      problems.push_back({"line " + std::to_string(number),
-                          std::to_string(line.size()) + " bytes",
-                          "16 to 200 visible ASCII characters", "range"});
+      problems.push_back({say("line {}", number), say("{} bytes", line.size()),
+                          tr("16 to 200 visible ASCII characters"), "range"});
   }
   if (keys.empty() && problems.empty())
-    problems.push_back({"", "no key", "at least one", "missing"});
+    problems.push_back({"", tr("no key"), tr("at least one"), "missing"});
   if (!problems.empty()) throw InputError(file.string(), problems);
   return keys;
 }

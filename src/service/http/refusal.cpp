@@ -1,10 +1,9 @@
 #include "refusal.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <iterator>
 
+#include "base/say.hpp"
 #include "host.hpp"
 #include "keys.hpp"
 #include "target.hpp"
@@ -27,7 +26,8 @@ std::optional<Reply> refused(const ServerState& state, const Call& call) {
   const bool open = path == "/" || path == "/healthz" || path == "/readyz";
   if (!state.options.keys.empty() && !open &&
       !authorized(state.options.keys, call.authorization)) {
-    Reply reply = problem(401, "key", "expected Authorization: Bearer and a key", call);
+    Reply reply =
+        problem(401, "key", tr("expected Authorization: Bearer and a key"), call);
     reply.headers.emplace_back("WWW-Authenticate", "Bearer");
     return reply;
   }
@@ -54,38 +54,39 @@ std::optional<Reply> objection(const ServerState& state, const HeaderParser& par
                                const Call& call) {
   const auto& message = parser.get();
   if (call.method == "CONNECT")  // the bytes that follow would be for another server
-    return problem(501, "method", "CONNECT is not for this server", call);
+    return problem(501, "method", tr("CONNECT is not for this server"), call);
   if (std::distance(message.begin(), message.end()) > kMostFields)
-    return problem(431, "header", fmt::format("expected at most {} fields", kMostFields),
-                   call);
+    return problem(431, "header", say("expected at most {} fields", kMostFields), call);
   for (const auto field :
        {http::field::host, http::field::content_type, http::field::content_encoding,
         http::field::transfer_encoding, http::field::authorization, http::field::origin})
     if (message.count(field) > 1)
-      return problem(400, "header", "expected one " + text(http::to_string(field)), call);
+      return problem(400, "header", say("expected one {}", text(http::to_string(field))),
+                     call);
   const auto hosts = message.count(http::field::host);
   if (hosts == 0 && message.version() >= 11)
-    return problem(400, "host", "expected one Host", call);
+    return problem(400, "host", tr("expected one Host"), call);
   for (const auto& host : {text(message[http::field::host]), call.host})
     if (!is_host(host))
-      return problem(400, "host", "got '" + host + "', expected a host", call);
+      return problem(400, "host", say("got '{}', expected a host", host), call);
   const auto coding = text(message[http::field::transfer_encoding]);
   if (!coding.empty() && (!beast::iequals(coding, "chunked") || message.version() < 11))
     return problem(501, "transfer-coding",
-                   "got '" + coding + "', expected chunked or none", call);
+                   say("got '{}', expected chunked or none", coding), call);
   const auto encoding = text(message[http::field::content_encoding]);
   if (!encoding.empty() && !beast::iequals(encoding, "identity"))
-    return problem(415, "content-coding", "got '" + encoding + "', expected none", call);
+    return problem(415, "content-coding", say("got '{}', expected none", encoding), call);
   if (!state.options.keys.empty())
     return std::nullopt;  // no browser sends a key by itself
   const auto origin = text(message[http::field::origin]);
   if (!origin.empty() && !origin_is(origin, call.host))
-    return problem(403, "origin", "pages of " + origin + " may not ask here", call);
+    return problem(403, "origin", say("pages of {} may not ask here", origin), call);
   if (!call.host.empty() && !is_local(call.host))
     return problem(421, "host",
-                   "got Host '" + call.host +
-                       "', expected an address or a name without a dot; others need "
-                       "keys (--keys)",
+                   say("got Host '{}', expected an address or a name without a dot; "
+                       "others need keys "
+                       "(--keys)",
+                       call.host),
                    call);
   return std::nullopt;
 }
@@ -103,19 +104,19 @@ std::optional<Reply> refused_unread(const ServerState& state, const HeaderParser
 std::optional<Reply> refusal(const beast::error_code& ec, const Call& call) {
   const auto megabytes = HttpApi::body_limit(call) / 1'000'000;
   if (ec == beast::error::timeout)
-    return problem(408, "timeout", "the request did not arrive in time", call);
+    return problem(408, "timeout", tr("the request did not arrive in time"), call);
   if (ec == http::error::header_limit)
     return call.target.empty()
-               ? problem(414, "target", "the request line is too long", call)
-               : problem(431, "header", "the header is too long", call);
+               ? problem(414, "target", tr("the request line is too long"), call)
+               : problem(431, "header", tr("the header is too long"), call);
   if (ec == http::error::body_limit)
-    return problem(413, "body", "expected at most " + std::to_string(megabytes) + " MB",
-                   call);
+    return problem(413, "body", say("expected at most {} MB", megabytes), call);
   if (ec == boost::system::errc::not_enough_memory)
-    return busy("the bodies of other calls fill the memory for them (--body-memory)",
+    return busy(to_translate(
+                    "the bodies of other calls fill the memory for them (--body-memory)"),
                 call);
   if (ec == boost::system::errc::no_space_on_device)
-    return busy("no room to keep the lines of another batch", call);
+    return busy(to_translate("no room to keep the lines of another batch"), call);
   if (ec.category() == http::make_error_code(http::error::bad_version).category() &&
       ec != http::error::end_of_stream && ec != http::error::partial_message)
     return problem(400, "no-http", ec.message(), call);
@@ -128,18 +129,18 @@ std::optional<Reply> at_once(const ServerState& state, const Call& call) {
   if (path == "/healthz") return state.api.reply(call, {});
   if (path == "/readyz")
     return state.full() || state.draining
-               ? problem(503, "busy", "not ready for calls", call)
+               ? problem(503, "busy", tr("not ready for calls"), call)
                : Reply{200, "text/plain; charset=utf-8", "ready\n", {}};
   if (path == "/metrics") {
     state.metrics.held_bytes.Set(static_cast<double>(state.memory.used()));
     return Reply{200, "text/plain; version=0.0.4", state.metrics.text(), {}};
   }
   if (!state.full()) return std::nullopt;
-  return busy("too many calls wait already", call);
+  return busy(to_translate("too many calls wait already"), call);
 }
 
 Reply busy(const char* detail, const Call& call) {
-  Reply reply = problem(503, "busy", detail, call);
+  Reply reply = problem(503, "busy", tr(detail), call);
   reply.headers.emplace_back("Retry-After", "1");
   return reply;
 }

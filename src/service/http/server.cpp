@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "state.hpp"
+#include "turnwright/base/language.hpp"
 
 namespace turnwright::service {
 namespace {
@@ -19,16 +20,16 @@ ServerOptions complete(ServerOptions options) {
 
 [[noreturn]] void refuse(const char* option, const std::string& got,
                          const std::string& expected, const std::string& code) {
-  throw InputError("command line", {{option, got, expected, code}});
+  throw InputError(tr("command line"), {{option, got, expected, code}});
 }
 
 asio::ip::address address_of(const ServerOptions& options) {
   boost::system::error_code ec;
   const auto address = asio::ip::make_address(options.address, ec);
-  if (ec) refuse("--address", options.address, "a numeric IP address", "address");
+  if (ec) refuse("--address", options.address, tr("a numeric IP address"), "address");
   if (!address.is_loopback() && options.keys.empty())
     refuse("--address", options.address,
-           "a loopback address, or keys for the callers (--keys)", "keys");
+           tr("a loopback address, or keys for the callers (--keys)"), "keys");
   return address;
 }
 
@@ -45,8 +46,9 @@ void bind(tcp::acceptor& acceptor, const ServerOptions& options) {
     if (error.code() == boost::system::errc::address_in_use ||
         error.code() == boost::system::errc::permission_denied)
       refuse("--port", std::to_string(options.port) + why,
-             "a port that is free and that this user may listen on", "port");
-    refuse("--address", options.address + why, "an address of this machine", "address");
+             tr("a port that is free and that this user may listen on"), "port");
+    refuse("--address", options.address + why, tr("an address of this machine"),
+           "address");
   }
 }
 

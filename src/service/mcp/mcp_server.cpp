@@ -3,6 +3,7 @@
 #include <atomic>
 #include <utility>
 
+#include "base/say.hpp"
 #include "document/json/parse.hpp"
 #include "turnwright/base/cancelled.hpp"
 #include "turnwright/base/errors.hpp"
@@ -63,16 +64,16 @@ void Server::send(const ordered_json& message) {
 }
 
 void Server::refuse(const json& id) {
-  send(
-      error(id, Fault::invalid_request,
-            "expected one object with \"jsonrpc\": \"2.0\", a method, params that are an "
-            "object, and an id (text or an integer) or none"));
+  send(error(
+      id, Fault::invalid_request,
+      tr("expected one object with \"jsonrpc\": \"2.0\", a method, params that are an "
+         "object, and an id (text or an integer) or none")));
 }
 
 void Server::receive(std::string_view line) {
   json message;
   try {
-    message = document::parse(line, "message");
+    message = document::parse(line, tr("message"));
   } catch (const InputError& e) {
     return send(error(nullptr, Fault::parse, e.what()));
   }
@@ -103,14 +104,14 @@ void Server::answer_request(const json& id, const std::string& method,
   if (method == "resources/read") {
     const auto uri = member(parameters, "uri");
     if (!uri.is_string())
-      return send(error(id, Fault::invalid_parameters, "uri: expected text"));
+      return send(error(id, Fault::invalid_parameters, tr("uri: expected text")));
     const auto found = resources_.read(uri);
     return send(found ? response(id, *found)
                       : error(id, Fault::unknown_resource,
-                              "no resource " + uri.get<std::string>() +
-                                  "; resources/list has all of them"));
+                              say("no resource {}; resources/list has all of them",
+                                  uri.get<std::string>())));
   }
-  send(error(id, Fault::unknown_method, "no method " + method));
+  send(error(id, Fault::unknown_method, say("no method {}", method)));
 }
 
 void Server::take_call(const json& id, const json& parameters) {
@@ -118,7 +119,7 @@ void Server::take_call(const json& id, const json& parameters) {
   const auto* row = name.is_string() ? find_request(name.get<std::string>()) : nullptr;
   if (!row)
     return send(error(id, Fault::invalid_parameters,
-                      "name: got " + name.dump() + ", expected a tool of tools/list"));
+                      say("name: got {}, expected a tool of tools/list", name.dump())));
   const auto about = member(parameters, "_meta");
   Call call{row,
             id,
@@ -127,8 +128,8 @@ void Server::take_call(const json& id, const json& parameters) {
             {}};
   const std::unique_lock lock(calling_);
   if (calls_.size() > limits_.waiting)
-    return send(error(id, Fault::busy,
-                      std::to_string(calls_.size()) + " calls wait; call again later"));
+    return send(
+        error(id, Fault::busy, say("{} calls wait; call again later", calls_.size())));
   calls_.push_back(std::move(call));
   changed_.notify_all();
 }
@@ -175,7 +176,7 @@ std::optional<ordered_json> Server::answered(const Call& call) {
     return fails(visible(e.what()));
   } catch (const Cancelled&) {
     if (!deadline.passed()) return std::nullopt;
-    return fails("not done within " + std::to_string(limits_.deadline.count()) + " ms");
+    return fails(say("not done within {} ms", limits_.deadline.count()));
   } catch (const std::exception& e) {
     return error(call.id, Fault::internal, visible(e.what()));
   }

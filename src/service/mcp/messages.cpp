@@ -4,6 +4,7 @@
 #include <array>
 #include <string_view>
 
+#include "base/say.hpp"
 #include "service/listing.hpp"
 
 namespace turnwright::service::mcp {
@@ -32,12 +33,12 @@ std::string schema_of(const Request& row) {
 
 ordered_json tool(const Request& row) {
   return {{"name", row.name},
-          {"title", row.summary},
-          {"description", row.summary + ". The arguments are a document of the schema " +
-                              schema_of(row)},
+          {"title", tr(row.summary)},
+          {"description", say("{}. The arguments are a document of the schema {}",
+                              tr(row.summary), schema_of(row))},
           {"inputSchema",
            {{"type", "object"},
-            {"description", "as in " + schema_of(row)},
+            {"description", say("as in {}", schema_of(row))},
             {"examples", ordered_json::array({ordered_json::parse(row.example)})}}},
           {"annotations", {{"readOnlyHint", true}, {"openWorldHint", false}}}};
 }
