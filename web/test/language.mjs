@@ -88,9 +88,9 @@ async function tour(language) {
   await state('infeasible');
   for (const id of ['drilled-bush', 'keyed-shaft', 'threaded-spindle', 'iron-hub', 'motor-shaft']) {
     await choose(id);
-    for (const what of ['d1', 'left']) {
-      const one = page.locator(`.sheet [role=button][aria-label*="${what}"]`).first();
-      if (await one.count()) await one.focus();
+    for (const one of ['first', 'last']) { // an element, a face
+      await page.locator('.sheet [role=button]')[one]().focus();
+      seen.push(...(await texts(page)));
     }
     await state(id);
   }
