@@ -30,7 +30,7 @@ const values = (page) => page.evaluate(() =>
 // What is said in answers, and names and ids in documents, are not the page's.
 const spoken = new Set(['id', 'sentence', 'why', 'text', 'got', 'expected', 'pointer', 'detail', 'tool', 'what', 'on', 'of', 'datum', 'at',
   'device', 'designation', 'fit', 'insert', 'source', 'note', 'chain', 'currency', 'reason', 'general', 'undercut', 'material', 'where',
-  'confounded', 'warnings', 'taken', 'not_predicted', 'not_identified', 'unreachable', 'cannot', 'left_out', 'value', 'kinds', 'form', 'use', 'uses', 'format']);
+  'confounded', 'warnings', 'taken', 'not_predicted', 'not_identified', 'unreachable', 'cannot', 'left_out', 'kinds', 'form', 'use', 'uses', 'format']);
 function collect(document, key, listed, all) {
   if (typeof document === 'string') {
     if (spoken.has(key) || (listed && key === 'name')) all.add(document);
