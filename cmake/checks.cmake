@@ -60,7 +60,7 @@ add_test(NAME install.find_package COMMAND ${CMAKE_COMMAND}
   -P ${PROJECT_SOURCE_DIR}/tests/install/run.cmake)
 set_tests_properties(install.find_package PROPERTIES TIMEOUT 600)
 
-foreach(step IN ITEMS build check unit round shop builder odd)
+foreach(step IN ITEMS build check unit round shop language builder odd)
   set(when)
   if(step MATCHES "^(builder|odd)$")
     set(when CONFIGURATIONS slow)

@@ -49,10 +49,10 @@ async function shaft() {
   await field(page, 'Kind of d2').selectOption('groove');
   await write(page, 'Floor diameter of d2', '27.6');
   await page.getByRole('button', { name: 'Add at the right end' }).focus();
-  // length, diameter, fit or limits, Ra, Rz, for grinding; then the button that inserts the next one
+  // length, diameter, knurl, fit or limits, Ra, Rz, for grinding; then the button that inserts the next one
   for (const [values, last] of [
-    [['31', '32', 'h8', '1.6', '', '']], [['35', '40', 'k6', '0.8', '', '0.3']], [['170', '50', '0/-0.1', '3.2', '', '']],
-    [['35', '40', 'k6', '0.8', '', '']], [['60', '35', 'h8', '1.6', '', ''], true],
+    [['31', '32', '', 'h8', '1.6', '', '']], [['35', '40', '', 'k6', '0.8', '', '0.3']], [['170', '50', '', '0/-0.1', '3.2', '', '']],
+    [['35', '40', '', 'k6', '0.8', '', '']], [['60', '35', '', 'h8', '1.6', '', ''], true],
   ]) {
     await page.keyboard.press('Enter');
     await types(page, ...values);

@@ -6,14 +6,14 @@ import { createInterface } from 'node:readline';
 import assert from 'node:assert/strict';
 import { chromium } from 'playwright-core';
 
-/** Starts both; the arguments are those of the round: TURNWRIGHT FOLDER [PAGE]. */
-export async function stage() {
+/** Starts both, the server with more arguments; those of the round are TURNWRIGHT FOLDER [PAGE]. */
+export async function stage(...more) {
   const [program, folder, own] = process.argv.slice(2);
   const browserPath = process.env.CHROMIUM ?? '/usr/bin/chromium';
   const axeSource = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
   mkdirSync(folder, { recursive: true });
 
-  const server = spawn(program, ['serve', '--port', '0', ...(own ? ['--page', own] : [])], {
+  const server = spawn(program, ['serve', '--port', '0', ...(own ? ['--page', own] : []), ...more], {
     stdio: ['ignore', 'pipe', 'ignore'],
     env: { ...process.env, XDG_STATE_HOME: folder },
   });
@@ -25,7 +25,7 @@ export async function stage() {
   const browser = await chromium.launch({ executablePath: browserPath, args: ['--no-sandbox'] });
   let checks = 0;
 
-  async function open(options) {
+  async function open(options, query = '') {
     const context = await browser.newContext({ acceptDownloads: true, ...options });
     const page = await context.newPage();
     const faults = (page.faults = []);
@@ -40,7 +40,7 @@ export async function stage() {
       const refused = /Failed to load resource/.test(message.text());
       if (message.type() === 'error' && !refused) faults.push(`console: ${message.text()}`);
     });
-    await page.goto(base);
+    await page.goto(base + query);
     return page;
   }
 

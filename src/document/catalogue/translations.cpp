@@ -29,10 +29,11 @@ void add(const fs::path& file, Translations& texts) {
   if (!document.is_object())
     problems.push_back({"", document.type_name(), tr("an object of texts"), "type"});
   for (const auto& [english, text] : document.items()) {
-    if (text.is_string())
-      texts.emplace(english, text.get<std::string>());
-    else
+    if (!text.is_string())
       problems.push_back({'/' + english, text.dump(), tr("a text"), "type"});
+    else if (!texts.emplace(english, text.get<std::string>()).second)
+      problems.push_back(
+          {'/' + english, text.dump(), tr("a text that no other file has"), "duplicate"});
   }
   if (!problems.empty()) throw InputError(file.string(), std::move(problems));
 }

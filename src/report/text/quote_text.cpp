@@ -30,7 +30,7 @@ std::string batch_table(const ordered_json& part) {
   std::vector<Column> columns{{tr("batch")},    {tr("price")},
                               {tr("stock")},    {tr("run")},
                               {tr("set up")},   {tr("scrap")},
-                              {tr("overhead")}, {tr("margin")},
+                              {tr("overhead")}, {say("margin{}", "")},  // of the price
                               {tr("time")},     {tr("made by"), Align::left}};
   std::vector<Row> rows;
   bool choice = false;

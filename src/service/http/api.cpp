@@ -1,6 +1,7 @@
 #include "api.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
@@ -111,7 +112,8 @@ struct HttpApi::Route {
   std::string method;
   std::function<Reply(const HttpApi&, const Call&, const Arguments&, std::stop_token)>
       reply;
-  std::string parameter = {};  ///< of the query, an integer >= 1; "": no query is allowed
+  std::string parameter = {};            ///< of the query; "": no query is allowed
+  std::vector<std::string> values = {};  ///< of the parameter; none: an integer >= 1
 
   /// The arguments, if the path is of this route.
   std::optional<Arguments> match(const std::vector<std::string_view>& given) const {
@@ -145,8 +147,11 @@ Reply methods(const std::string& allowed) {
   return {204, "", "", {{"Allow", allowed + ", OPTIONS"}}};
 }
 
-/// The errors of a call's query, in which `parameter` may appear once.
-std::optional<Reply> wrong_query(const std::string& parameter, const Call& call) {
+/// The errors of a call's query, in which `parameter` may appear once, with one of its
+/// values or, where there are none, an integer >= 1.
+std::optional<Reply> wrong_query(const std::string& parameter,
+                                 const std::vector<std::string>& values,
+                                 const Call& call) {
   std::vector<Problem> wrong;
   bool given = false;
   for (const auto& [name, value] : call.query()) {
@@ -159,7 +164,9 @@ std::optional<Reply> wrong_query(const std::string& parameter, const Call& call)
       add(tr("no such parameter"), "unknown-key");
     else if (std::exchange(given, true))
       add(tr("the parameter once"), "duplicate");
-    else if (!number(value))
+    else if (!values.empty() && std::ranges::find(values, value) == values.end())
+      add(fmt::format("{}", fmt::join(values, ", ")), "choice");
+    else if (values.empty() && !number(value))
       add(tr("an integer >= 1"), "range");
   }
   if (wrong.empty()) return std::nullopt;
@@ -285,10 +292,11 @@ const std::vector<HttpApi::Route>& HttpApi::routes() {
           {own, "GET", [](const HttpApi&, const Call& call, const Arguments&, Stop) {
              return missing(call);
            }});
-    all.push_back(
-        {"/", "GET", [](const HttpApi& api, const Call&, const Arguments&, Stop) {
-           return page_reply(api.page_());
-         }});
+    all.push_back({"/", "GET",
+                   [](const HttpApi& api, const Call&, const Arguments&, Stop) {
+                     return page_reply(api.page_());
+                   },
+                   "language", kPageLanguages});
     all.push_back({"/openapi.json", "GET",
                    [](const HttpApi& api, const Call&, const Arguments&, Stop) -> Reply {
                      return {200, "application/json", api.openapi_, {}};
@@ -340,7 +348,8 @@ std::optional<Reply> HttpApi::at_once(const Call& call) const {
   std::string allowed;
   for (const auto& route : routes()) {
     if (!route.match(given)) continue;
-    if (route.method == method_of(call)) return wrong_query(route.parameter, call);
+    if (route.method == method_of(call))
+      return wrong_query(route.parameter, route.values, call);
     allowed += (allowed.empty() ? "" : ", ") + route.method;
     if (route.method == "GET") allowed += ", HEAD";
   }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "document/json/file.hpp"
+#include "page.hpp"
 #include "service/requests.hpp"
 
 namespace turnwright::service {
@@ -277,7 +278,17 @@ ordered_json openapi(const std::filesystem::path& folder) {
   paths["/healthz"] = get("health", "the process answers", text, none);
   paths["/readyz"] = get("ready", "calls are taken", text, none);
   paths["/metrics"] = get("metrics", "Prometheus text exposition", text, none);
-  paths["/"] = get("page", "the planner's page", page, none);
+  paths["/"] =
+      get("page",
+          "the planner's page; lang of its html element is the language of the program, "
+          "which "
+          "the page speaks",
+          page,
+          ordered_json::array(
+              {{{"name", "language"},
+                {"in", "query"},
+                {"description", "what the page speaks instead; given once or not at all"},
+                {"schema", {{"enum", kPageLanguages}}}}}));
   for (const char* open : {"/", "/healthz", "/readyz"})
     paths[open]["get"]["security"] = {ordered_json::object()};
   add_own_schemas(schemas);

@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "service/digest.hpp"
+#include "turnwright/base/language.hpp"
 
 namespace turnwright::service {
 namespace {
@@ -23,6 +24,13 @@ std::string hashes(std::string_view html, const std::string& element) {
   return all;
 }
 
+std::string in_own_language(std::string html) {
+  constexpr std::string_view kEnglish = "<html lang=\"en\">";
+  if (const auto at = html.find(kEnglish); at != std::string::npos)
+    html.replace(at, kEnglish.size(), "<html lang=\"" + language() + "\">");
+  return html;
+}
+
 }  // namespace
 
 std::string content_security_policy(std::string_view html) {
@@ -32,7 +40,7 @@ std::string content_security_policy(std::string_view html) {
 }
 
 Reply page_reply(std::string html) {
-  Reply reply{200, "text/html; charset=utf-8", std::move(html), {}};
+  Reply reply{200, "text/html; charset=utf-8", in_own_language(std::move(html)), {}};
   reply.headers = {{"Content-Security-Policy", content_security_policy(reply.body)},
                    {"Referrer-Policy", "no-referrer"},
                    {"Cache-Control", "no-cache"}};

@@ -1,6 +1,7 @@
 #pragma once
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "message.hpp"
 
@@ -15,7 +16,12 @@ std::string built_in_page();
 /// this server; nothing else.
 std::string content_security_policy(std::string_view html);
 
-/// The page with its policy.
+/// The languages that the page speaks, by their tags: the query's "language" of its address
+/// says it in another than the program's.
+inline const std::vector<std::string> kPageLanguages{"en", "de"};
+
+/// The page with its policy.  Its <html lang="en"> becomes the program's language, which
+/// tells the page's script what to speak.
 Reply page_reply(std::string html);
 
 }  // namespace turnwright::service

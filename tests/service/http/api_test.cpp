@@ -2,10 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <set>
 
 #include "document/json/parse.hpp"
+#include "service/http/page.hpp"
+#include "turnwright/base/language.hpp"
+#include "turnwright/document/translations.hpp"
 
 namespace turnwright::service::api_test {
 namespace {
@@ -162,6 +166,25 @@ TEST(HttpApi, ThePageIsAtTheRoot) {
   const HttpApi other(TURNWRIGHT_SOURCE_DIR, catalogue(), nullptr,
                       [] { return std::string("<p>other</p>"); });
   EXPECT_EQ(other.reply(call("GET", "/"), {}).body, "<p>other</p>");
+}
+
+TEST(HttpApi, ThePageSpeaksTheLanguageOfTheProgramOrOfItsAddress) {
+  const auto begin = [](const char* target) {
+    return reply(call("GET", target)).body.substr(0, 40);
+  };
+  EXPECT_NE(begin("/").find("<html lang=\"en\">"), std::string::npos);
+  speak("de", {});
+  EXPECT_NE(begin("/").find("<html lang=\"de\">"), std::string::npos);
+  speak("en", {});
+  const auto known = document::languages(TURNWRIGHT_SOURCE_DIR);
+  EXPECT_TRUE(std::ranges::is_permutation(known, kPageLanguages));
+  for (const auto& language : kPageLanguages)  // which the page itself reads
+    EXPECT_EQ(reply(call("GET", "/?language=" + language)).body, built_in_page());
+  const auto wrong = problem_of(reply(call("GET", "/?language=xx&language=de")));
+  EXPECT_EQ(wrong.at("errors"), json::parse(R"([
+    {"pointer": "language", "got": "\"xx\"", "expected": "en, de", "code": "choice"},
+    {"pointer": "language", "got": "\"de\"", "expected": "the parameter once",
+     "code": "duplicate"}])"));
 }
 
 TEST(HttpApi, GivesAPlanAsAReport) {

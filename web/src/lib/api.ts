@@ -1,3 +1,5 @@
+import { t } from './language';
+
 /** One thing wrong with a document, as the server tells it. */
 export interface Problem {
   pointer: string;
@@ -5,6 +7,9 @@ export interface Problem {
   expected: string;
   code: string;
 }
+
+/** What is wrong, in words. */
+export const complaint = (p: Problem): string => t("got {}, expected {}", p.got, p.expected);
 
 /** The server understood the call and refused it. */
 export class Refused extends Error {
@@ -40,7 +45,7 @@ async function call(path: string, init: RequestInit): Promise<Response> {
     response = await fetch(path, { ...init, headers });
   } catch (error) {
     if (init.signal?.aborted) throw error;
-    throw new Refused(0, 'The server does not answer. Is turnwright serve still running?');
+    throw new Refused(0, t("The server does not answer. Is turnwright serve still running?"));
   }
   if (response.ok) return response;
   const problem = await response.json().catch(() => ({}));

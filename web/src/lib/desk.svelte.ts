@@ -2,6 +2,7 @@
 // in the browser's store, and what the server reads in it.
 import { ask, Refused, type Problem } from './api';
 import { draftKey, drafts, forgetDraft, keepDraft, loadDraft, readDraft, type Draft } from './drafts';
+import { t } from './language';
 import { begun, redone, stepped, undone, type History } from './history';
 import { stockFollows } from './stock';
 import type { Drawing, Part } from './types';
@@ -75,8 +76,8 @@ export class Desk {
     this.step(stepped(this.history, now ? stockFollows(now, next) : next), told);
   }
 
-  undo = () => this.history.past.length && this.step(undone(this.history), 'Undone');
-  redo = () => this.history.future.length && this.step(redone(this.history), 'Done again');
+  undo = () => this.history.past.length && this.step(undone(this.history), t("Undone"));
+  redo = () => this.history.future.length && this.step(redone(this.history), t("Done again"));
 
   private step(history: History<Part | undefined>, told: string) {
     this.history = history;
@@ -98,7 +99,7 @@ export class Desk {
     const own = this.text;
     try {
       const next = JSON.parse(own);
-      if (next === null || typeof next !== 'object' || Array.isArray(next)) throw new Error('a part document is an object, {..}');
+      if (next === null || typeof next !== 'object' || Array.isArray(next)) throw new Error(t("a part document is an object, {{..}}"));
       if (!this.draft) this.open(next);
       else if (JSON.stringify(next) !== JSON.stringify(this.part)) this.edit(next);
       this.text = own; // as it was typed
@@ -174,7 +175,7 @@ export class Desk {
     const theirs = readDraft(event.newValue);
     if (!theirs) return; // forgotten there: it stays on this desk and is kept with the next edit
     this.history = stepped(this.history, theirs.part);
-    this.said = 'Changed in another tab';
+    this.said = t("Changed in another tab");
     this.show(theirs.part, 0);
   }
 

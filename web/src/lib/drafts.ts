@@ -1,5 +1,6 @@
 // Drafts: part documents that the browser keeps. Each has a key of its own in the store, so
 // that two tabs with two drafts never write over each other.
+import { t } from './language';
 import type { Remark, Part } from './types';
 
 export interface Draft {
@@ -56,7 +57,7 @@ export const forgetDraft = (store: Storage, id: string) => store.removeItem(draf
 export function draftNames(all: Draft[]): { id: string; name: string }[] {
   const seen = new Map<string, number>();
   return all.map(({ id, part }) => {
-    const name = String(part.name ?? '').trim() || 'part without a name';
+    const name = String(part.name ?? '').trim() || t("part without a name");
     const n = (seen.get(name) ?? 0) + 1;
     seen.set(name, n);
     return { id, name: n > 1 ? `${name} (${n})` : name };

@@ -1,4 +1,5 @@
 // A file that is dropped or opened: a part document, a drawing for /v1/import, or a tool library for /v1/import-tools.
+import { t } from './language';
 import type { Part } from './types';
 
 export const largest_bytes = 100e6;
@@ -30,22 +31,22 @@ function document(name: string, text: string): Dropped {
   try {
     value = JSON.parse(text);
   } catch (error) {
-    return { kind: 'refused', why: `${name} is no JSON: ${(error as Error).message}` };
+    return { kind: 'refused', why: t("{} is no JSON: {}", name, (error as Error).message) };
   }
   if (value === null || typeof value !== 'object' || Array.isArray(value))
-    return { kind: 'refused', why: `${name} is no part document: expected an object, {..}` };
+    return { kind: 'refused', why: t("{} is no part document: expected an object, {{..}}", name) };
   const { format, data, parameter } = value as Part;
   if (Array.isArray(data) || parameter !== undefined) return { kind: 'library', request: { text } };
   if (format !== undefined && format !== 'turnwright-part/1')
-    return { kind: 'refused', why: `${name} is no part document: its format is ${JSON.stringify(format)}` };
+    return { kind: 'refused', why: t("{} is no part document: its format is {}", name, JSON.stringify(format)) };
   return { kind: 'part', part: value as Part };
 }
 
 /** What a file is, by its name and its first character. */
 export function readDropped(name: string, bytes: Uint8Array): Dropped {
-  if (bytes.length === 0) return { kind: 'refused', why: `${name} is empty` };
+  if (bytes.length === 0) return { kind: 'refused', why: t("{} is empty", name) };
   if (bytes.length > largest_bytes)
-    return { kind: 'refused', why: `${name} has ${Math.round(bytes.length / 1e6)} MB, more than ${largest_bytes / 1e6} MB` };
+    return { kind: 'refused', why: t("{} has {} MB, more than {} MB", name, Math.round(bytes.length / 1e6), largest_bytes / 1e6) };
   const given = content(bytes);
   if (/\.(tools|csv|xml|fctb)$/i.test(name)) return { kind: 'library', request: given };
   const text: string = (given.text ?? '').replace(/^\uFEFF/, '');

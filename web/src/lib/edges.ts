@@ -1,5 +1,6 @@
 // Edges and inner corners of a part: where a chamfer, a radius, an undercut or a fillet may stand.
 import { alongBores, ends, entries, isThrough, mouths, type Element } from './elements';
+import { t } from './language';
 import type { Part } from './types';
 
 /** recess: how deep it goes into the shoulder; falls: the slope's angle, leans: that of the way back to the shoulder. */
@@ -59,7 +60,7 @@ function between(a: Element, b: Element, side: 'outer' | 'inner'): Place | undef
   if (is('arc', a, b) || left === right) return undefined;
   const stands = left > right === (side === 'outer') ? a : b, groove = is('groove', a, b);
   return {
-    at: `${a.id}|${b.id}`, name: `${a.id} to ${b.id}`, chamfer: turned(stands), radius: round(stands) && !groove, fillet: !groove,
+    at: `${a.id}|${b.id}`, name: t("{} to {}", a.id, b.id), chamfer: turned(stands), radius: round(stands) && !groove, fillet: !groove,
     undercut: side === 'outer' && !groove, thread: (stands === a ? b : a).kind === 'thread',
   };
 }
@@ -74,9 +75,9 @@ export function edgePlaces(part: Part): Place[] {
     turned(e) ? [{ at, name, chamfer: true, radius: round(e!), fillet: false, undercut: false }] : [];
   const mouth = (side: 'left' | 'right') =>
     mouths(part).filter((m) => m.end === side)
-      .flatMap(({ bore }) => end(`${side}|${bore.id}`, bore, `bore ${bore.id} at the ${side}`));
+      .flatMap(({ bore }) => end(`${side}|${bore.id}`, bore, side === 'left' ? t("bore {} at the left", bore.id) : t("bore {} at the right", bore.id)));
   return [
-    ...end('left', outer[0], 'left end'), ...steps(outer, 'outer'), ...end('right', outer[outer.length - 1], 'right end'),
+    ...end('left', outer[0], t("left end")), ...steps(outer, 'outer'), ...end('right', outer[outer.length - 1], t("right end")),
     ...mouth('left'), ...steps(bores, 'inner'), ...mouth('right'),
   ];
 }

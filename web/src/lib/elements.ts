@@ -1,6 +1,8 @@
 // Edits of a part's contour. Every edit gives a new document and names what it had to take
 // away: edges, faces, tolerances and milled places are written by the names of elements.
+import { t } from './language';
 import type { Part } from './types';
+import { words } from './words';
 
 export type Side = 'outer' | 'inner';
 export type Kind = 'cylinder' | 'cone' | 'arc' | 'groove' | 'thread' | 'hole' | 'as-stock';
@@ -105,7 +107,7 @@ export function places(part: Part): Set<string> {
 
 /** What is asked for at a place, in words: "chamfer d1|d2". */
 const edgeName = (e: Element) =>
-  `${'chamfer_mm' in e ? 'chamfer' : 'radius_mm' in e ? 'radius' : 'undercut' in e ? 'undercut' : 'fillet'} ${e.at}`;
+  `${'chamfer_mm' in e ? t("chamfer") : 'radius_mm' in e ? t("radius") : 'undercut' in e ? t("undercut") : t("fillet")} ${e.at}`;
 
 /**
  * Lets a list of the document follow a change of names. An entry goes when `place` tells
@@ -143,10 +145,10 @@ function settled(before: Part, after: Part, renamed: (name: string) => string = 
   };
   let part = after;
   part = follow(part, 'edges', ['at'], place, edgeName, lost);
-  part = follow(part, 'faces', ['id'], place, (e) => `roughness of ${e.id}`, lost);
-  part = follow(part, 'tolerances', ['of', 'datum', 'between'], place, (e) => `tolerance ${e.id}`, lost);
-  part = follow(part, 'milling', ['on'], place, (e) => `${e.kind} ${e.id ?? ''}`.trim(), lost);
-  part = follow(part, 'operations', ['on'], place, (e) => `operation ${e.id}`, lost);
+  part = follow(part, 'faces', ['id'], place, (e) => t("roughness of {}", e.id), lost);
+  part = follow(part, 'tolerances', ['of', 'datum', 'between'], place, (e) => t("tolerance {}", e.id), lost);
+  part = follow(part, 'milling', ['on'], place, (e) => `${words(e.kind)} ${e.id ?? ''}`.trim(), lost);
+  part = follow(part, 'operations', ['on'], place, (e) => t("operation {}", e.id), lost);
   return { part, lost };
 }
 

@@ -1,5 +1,6 @@
 // Files of the shop for /v1/review and /v1/learn: NC programs, and results of measured parts.
 import { loadDraft } from './drafts';
+import { t } from './language';
 import type { Part } from './types';
 
 export interface Text {
@@ -9,10 +10,10 @@ export interface Text {
 
 export const controls = [
   { id: 'linuxcnc', name: 'LinuxCNC', ending: /\.ngc$/i },
-  { id: 'fanuc', name: 'Fanuc, system A', ending: /\.nc$/i },
-  { id: 'fanuc-b', name: 'Fanuc, system B', ending: /$^/ },
+  { id: 'fanuc', name: t("Fanuc, system A"), ending: /\.nc$/i },
+  { id: 'fanuc-b', name: t("Fanuc, system B"), ending: /$^/ },
   { id: 'haas', name: 'Haas', ending: /$^/ },
-  { id: 'siemens-iso', name: 'Siemens 840D, ISO mode', ending: /$^/ },
+  { id: 'siemens-iso', name: t("Siemens 840D, ISO mode"), ending: /$^/ },
   { id: 'siemens', name: 'Siemens 840D', ending: /\.mpf$/i },
   { id: 'okuma', name: 'Okuma OSP', ending: /\.min$/i },
 ];
@@ -55,7 +56,7 @@ export function learnRequest(files: Text[], part?: Part): { request?: Part; why?
   const qif = files.filter(isQif);
   const given = part ? { part } : {};
   if (qif.length === files.length) return { request: { ...given, qif: { files: qif.map((f) => f.text) } } };
-  if (qif.length) return { why: 'A table and files in QIF are two requests.' };
-  if (files.length > 1) return { why: `${files.length} tables: a request has one.` };
+  if (qif.length) return { why: t("A table and files in QIF are two requests.") };
+  if (files.length > 1) return { why: t("{} tables: a request has one.", files.length) };
   return { request: { ...given, csv: files[0].text } };
 }

@@ -24,6 +24,3 @@ export const micrometres = (mm: number | [number, number], decimals = 1): string
 /** A deviation with its sign, in mm. */
 export const signed = (mm: number): string =>
   mm === 0 ? '0' : (mm > 0 ? '+' : '−') + String(Number(Math.abs(mm).toFixed(4)));
-
-/** "total-radial-runout" as words. */
-export const words = (id: string): string => id.replaceAll(/[-_]/g, ' ');

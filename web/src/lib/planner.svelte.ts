@@ -1,5 +1,6 @@
 // Planning of the part on the desk: one run at a time, and the last result with what was asked.
 import { ask } from './api';
+import { t } from './language';
 import { fixed } from './numbers';
 import type { Desk } from './desk.svelte';
 import type { Part, Plan } from './types';
@@ -68,7 +69,7 @@ export class Planner {
       this.planned = request;
       this.desk.problems = [];
       this.desk.fault = '';
-      this.desk.said = next.status === 'ok' ? `Planned: ${fixed(next.cost_per_part, 2)} per part` : 'The part is infeasible';
+      this.desk.said = next.status === 'ok' ? t("Planned: {} per part", fixed(next.cost_per_part, 2)) : t("The part is infeasible");
       this.keep();
     } catch (error) {
       if (!own.signal.aborted) this.desk.refused(error);

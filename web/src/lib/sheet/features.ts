@@ -1,8 +1,10 @@
 // What a drawing shows beside the contour: milled places, centre holes, texts of sizes.
 import { centreOf, centres, centreText, type Centre } from '../centres';
 import { entries, type Element } from '../elements';
+import { t } from '../language';
 import { significant, signed } from '../numbers';
 import type { Drawing, DrawnTolerance, Part, Surface } from '../types';
+import { words } from '../words';
 import type { Point } from './contour';
 
 export interface MilledShape {
@@ -19,11 +21,13 @@ export interface MilledShape {
 const finite = (...all: unknown[]) => all.every((x) => typeof x === 'number' && Number.isFinite(x) && x >= 0);
 const ends_mm = 0.05; // a slot that comes so near to an end runs out there
 
+const at = (deg?: number) => (deg ? ` ${t("at {}°", significant(deg))}` : '');
+
 /** A cross hole, a circle as it is seen turned to the viewer. */
 function crossHole(m: Element, on: Surface): MilledShape[] {
   if (!finite(m.at_mm, m.diameter_mm, ...('through' in m ? [] : [m.depth_mm]))) return [];
-  const half = m.diameter_mm / 2, times = m.count > 1 ? `${m.count} × ` : '', turned = m.angle_deg ? ` at ${significant(m.angle_deg)}°` : '';
-  const goes = 'through' in m ? `through ${m.through}` : `× ${significant(m.depth_mm)}`;
+  const half = m.diameter_mm / 2, times = m.count > 1 ? `${m.count} × ` : '', turned = at(m.angle_deg);
+  const goes = 'through' in m ? t("through {}", words(String(m.through))) : `× ${significant(m.depth_mm)}`;
   return [{
     id: String(m.id ?? m.kind), kind: m.kind, on, z: [m.at_mm - half, m.at_mm + half], half, round: [true, true],
     text: `${times}⌀${significant(m.diameter_mm)} ${goes}${turned}`,
@@ -41,12 +45,11 @@ export function milledShapes(part: Part, drawing: Drawing): MilledShape[] {
     const left = Math.max(0, R - depth), times = m.count > 1 ? `${m.count} × ` : '';
     const z: [number, number] = [m.z_mm, m.z_mm + m.length_mm];
     const size = [flat ? undefined : m.width_mm, depth, m.length_mm].filter((x) => x !== undefined);
-    const turned = m.angle_deg ? ` at ${significant(m.angle_deg)}°` : '';
     return [{
       id: String(m.id ?? m.kind), kind: m.kind, on, z, half: flat ? Math.sqrt(R * R - left * left) : m.width_mm / 2,
       round: flat ? [false, false] : [
         m.kind === 'keyway' || z[0] > on.z_mm[0] + ends_mm, m.kind === 'keyway' || z[1] < on.z_mm[1] - ends_mm],
-      text: `${times}${m.kind} ${size.map((x) => significant(x)).join('×')}${turned}`,
+      text: `${times}${words(m.kind)} ${size.map((x) => significant(x)).join('×')}${at(m.angle_deg)}`,
     }];
   });
 }

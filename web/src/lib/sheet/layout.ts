@@ -1,5 +1,6 @@
 // What is dimensioned on a drawing, and where its lines and texts stand.
 import { entries } from '../elements';
+import { t } from '../language';
 import { significant } from '../numbers';
 import type { Drawing, DrawnTolerance, Part, Surface } from '../types';
 import { profile, radii } from './contour';
@@ -36,7 +37,7 @@ const outwards = { left: aside.map((px) => -px), right: aside, '': [0, ...aside.
 /** A size with the limits that the document itself gives; general ones stand in the title block. */
 function ownSize(part: Part, drawing: Drawing, e: Surface): string {
   const { flats, across_flats_mm } = drawing.stock;
-  if (e.kind === 'as-stock' && across_flats_mm) return `${flats === 6 ? 'hex' : 'sq'} ${lengthText(across_flats_mm)}`;
+  if (e.kind === 'as-stock' && across_flats_mm) return flats === 6 ? t("hex {}", lengthText(across_flats_mm)) : t("sq {}", lengthText(across_flats_mm));
   const asked = entries(part, e.side).find((own) => own.id === e.id);
   return sizeText(asked?.limits_mm ? e : { ...e, limits_mm: undefined });
 }
