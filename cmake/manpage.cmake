@@ -29,6 +29,9 @@ TURNWRIGHT_DATA
 folder with materials/, tools/, machines/, shops/, parts/ and schemas/, in place of the one that was
 installed.
 .TP
+TURNWRIGHT_LANGUAGE
+language of help, messages and reports, en or de.
+.TP
 XDG_STATE_HOME
 turnwright/jobs.sqlite in there keeps the batches of turnwright serve.
 ")
