@@ -21,7 +21,10 @@ constexpr const char* kForm =
 constexpr const char* kText = to_translate("a table as text");
 
 struct Header {
-  char separator = ',';
+  explicit Header(char ends_cells) : separator(ends_cells), numbers(ends_cells != ',') {}
+
+  char separator;
+  DecimalNumbers numbers;
   std::vector<const CsvColumn*> columns;  // null where a column is ignored
 };
 
@@ -91,7 +94,7 @@ std::string list(const std::vector<CsvColumn>& columns) {
 std::optional<Header> read_header(const Reader& csv, const Line& line,
                                   const std::vector<CsvColumn>& columns,
                                   OtherColumns others) {
-  Header out{.separator = separator_of(line.text), .columns = {}};
+  Header out(separator_of(line.text));
   const auto names = cells_of(csv, line, out.separator, 0);
   if (!names) return std::nullopt;
   bool good = true;
@@ -120,19 +123,6 @@ std::optional<Header> read_header(const Reader& csv, const Line& line,
   return good ? std::optional(out) : std::nullopt;
 }
 
-/// A number, or the unchanged text.
-nlohmann::json value_of(std::string_view cell) {
-  const auto x = csv_number(cell);
-  return x ? nlohmann::json(*x) : nlohmann::json(std::string(cell));
-}
-
-bool has_decimal_comma(std::string cell) {
-  const auto comma = cell.find(',');
-  if (comma == cell.npos) return false;
-  cell[comma] = '.';
-  return value_of(cell).is_number();
-}
-
 /// Whether a row is as long as the header; another length is reported.
 bool has_length(const Reader& csv, const Line& line, std::size_t cells,
                 std::size_t header) {
@@ -142,9 +132,8 @@ bool has_length(const Reader& csv, const Line& line, std::size_t cells,
   return cells == header;
 }
 
-/// The row of a line; false if a decimal comma shows that all numbers of the table have
-/// decimal commas.
-bool add_row(const Reader& csv, const Line& line, const Header& header,
+/// The row of a line; false if a number has another decimal mark, as then many have.
+bool add_row(const Reader& csv, const Line& line, Header& header,
              std::vector<CsvRow>& rows) {
   const auto row_cells = cells_of(csv, line, header.separator, header.columns.size());
   if (!row_cells || std::ranges::all_of(*row_cells, &std::string::empty)) return true;
@@ -154,12 +143,15 @@ bool add_row(const Reader& csv, const Line& line, const Header& header,
     const CsvColumn* const column = header.columns[i];
     const std::string& cell = (*row_cells)[i];
     if (!column || cell.empty()) continue;
-    if (!column->text && has_decimal_comma(cell)) {
+    const auto number =
+        column->text ? DecimalNumbers::Number{} : header.numbers.read(cell);
+    if (number.expected) {
       report(csv, child_pointer(row.pointer, column->name), shown(cell),
-             tr("a decimal point, here and in all numbers"), "type");
+             tr(number.expected), "type");
       return false;
     }
-    row.value[column->name] = column->text ? nlohmann::json(cell) : value_of(cell);
+    row.value[column->name] =
+        number.value ? nlohmann::json(*number.value) : nlohmann::json(cell);
   }
   rows.push_back(std::move(row));
   return true;
@@ -183,6 +175,21 @@ std::optional<double> csv_number(std::string_view cell) {
   const auto [to, error] = std::from_chars(cell.data(), end, x);
   if (error != std::errc() || to != end || !std::isfinite(x)) return std::nullopt;
   return x;
+}
+
+DecimalNumbers::Number DecimalNumbers::read(std::string_view cell) {
+  std::string digits(cell);
+  const auto comma = digits.find(',');
+  const bool has_comma = comma != digits.npos,
+             has_point = digits.find('.') != digits.npos;
+  if (has_comma) digits[comma] = '.';
+  const auto value = csv_number(digits);
+  if (!value || !(has_comma || has_point)) return {value};
+  const char mark = has_comma ? ',' : '.';
+  if (mark_ == 0) mark_ = mark;
+  if (mark == mark_) return {value};
+  return {value, mark_ == '.' ? to_translate("a decimal point, here and in all numbers")
+                              : to_translate("a decimal comma, here and in all numbers")};
 }
 
 void csv_cells(const Reader& csv, std::size_t most_rows,

@@ -31,14 +31,15 @@ struct CsvRow {
 /// - The header names the columns, in any order; lines before it may begin with #.
 /// - Cells end at a comma, a semicolon or a tab, whichever the header has most of.  They
 ///   may be quoted, with "" for a quote, but not over several lines.
-/// - Numbers have a decimal point.  What is no number stays text, for the row's Reader to
+/// - Numbers have a decimal point or, where cells do not end at commas, a comma, all of them
+///   the same (DecimalNumbers).  What is no number stays text, for the row's Reader to
 ///   refuse under the column's name.
 /// - A byte order mark, blanks around cells, \r at the end of a line, empty lines and
 ///   empty cells behind the last column do not count.
 ///
 /// Reported: no table, a table of no rows or of more than `most_rows`, a wrong header,
 /// rows of another length than the header, quotes out of place, and, once, a control
-/// character (what is read is no text) or a decimal comma.
+/// character (what is read is no text) or a number with another decimal mark.
 std::vector<CsvRow> csv_rows(const Reader& csv, const std::vector<CsvColumn>& columns,
                              OtherColumns others, std::size_t most_rows);
 
@@ -57,6 +58,22 @@ void csv_cells(const Reader& csv, std::size_t most_rows,
 
 /// A number with a decimal point; nothing for other text.
 std::optional<double> csv_number(std::string_view cell);
+
+/// Reads the numbers of a table, which all have the decimal mark of the first that has one.
+class DecimalNumbers {
+ public:
+  /// @param commas  whether they may have decimal commas
+  explicit DecimalNumbers(bool commas = true) : mark_(commas ? 0 : '.') {}
+
+  struct Number {
+    std::optional<double> value;     ///< nothing for other text
+    const char* expected = nullptr;  ///< to_translate(): the mark that it does not have
+  };
+  Number read(std::string_view cell);
+
+ private:
+  char mark_;
+};
 
 /// The names in the header of such a table, for tables whose columns are not known
 /// before; none if there is no table, which is reported.

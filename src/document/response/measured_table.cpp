@@ -111,25 +111,14 @@ class TableRows {
 
   double number(const std::string& cell, std::size_t line, const std::string& name) {
     constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-    std::string digits = cell;
-    const auto comma = digits.find(',');
-    const bool has_comma = comma != digits.npos,
-               has_point = digits.find('.') != digits.npos;
-    if (has_comma) digits[comma] = '.';
-    const auto x = csv_number(digits);
-    const char* expected = nullptr;
-    if (x && has_comma && mark_ == '.')
-      expected = to_translate("a decimal point, as in the numbers before");
-    else if (x && has_point && mark_ == ',')
-      expected = to_translate("a decimal comma, as in the numbers before");
-    if (expected || !x || (has_comma && has_point) || !contains(form_.bounds, *x)) {
+    const auto [x, expected] = numbers_.read(cell);
+    if (expected || !x || !contains(form_.bounds, *x)) {
       report(child_pointer(line_pointer(csv_, line), name),
              cell.empty() ? tr("nothing") : shown(cell),
              expected ? tr(expected) : expected_number(form_.bounds),
              x && !expected ? "range" : "type");
       return kNone;
     }
-    if (has_comma || has_point) mark_ = has_comma ? ',' : '.';
     return *x;
   }
 
@@ -146,7 +135,7 @@ class TableRows {
   MeasuredTable table_;
   std::vector<std::size_t> places_;  // of the columns in a row
   bool asked_for_units_ = false, good_ = true;
-  char mark_ = 0;  // before decimals
+  DecimalNumbers numbers_;
 };
 
 }  // namespace

@@ -149,14 +149,27 @@ cuts: /csv#line 1: got no column "z_mm", expected one
 cuts: /csv#line 1: got no column "F_N", expected one)");
 }
 
-TEST(Csv, DecimalCommasAreToldOnce) {
-  const std::string comma =
+TEST(Csv, OneDecimalMarkIsThatOfAllNumbers) {
+  const auto row = [](const std::string& table) { return read(table).rows.at(0); };
+  const json wanted{{"setup", "A"}, {"z_mm", 3.5}, {"F_N", -1e-3}};
+  EXPECT_EQ(row("setup;z_mm;F_N\nA;3,5;-0,1e-2"), wanted);
+  EXPECT_EQ(row("setup\tz_mm\tF_N\nA\t3,5\t\"-1e-3\""), wanted);
+  EXPECT_EQ(row("setup;z_mm;F_N\nA;3.5;-0.001"), wanted);
+  // a text with a comma has none
+  EXPECT_EQ(row("setup;z_mm;F_N\n1,2;x,y;1,2,3"),
+            (json{{"setup", "1,2"}, {"z_mm", "x,y"}, {"F_N", "1,2,3"}}));
+}
+
+TEST(Csv, AnotherDecimalMarkIsToldOnce) {
+  const std::string point =
       "got \"0,5\", expected a decimal point, here and in all numbers";
-  EXPECT_EQ(refused("setup;z_mm;F_N\n1,2;1;2\nA;3;0,5\nA;0,5;0,5\n"),
-            "cuts: /csv#line 3/F_N: " + comma);
-  EXPECT_EQ(refused("setup,z_mm,F_N\nA,\"0,5\",2\n"), "cuts: /csv#line 2/z_mm: " + comma);
-  // a text with a comma is none
-  EXPECT_EQ(read("setup;z_mm;F_N\nA;x,y;1,2,3").rows[0]["z_mm"], "x,y");
+  EXPECT_EQ(refused("setup;z_mm;F_N\n1,2;1;2\nA;3.1;0,5\nA;0,5;0,5\n"),
+            "cuts: /csv#line 3/F_N: " + point);
+  EXPECT_EQ(refused("setup,z_mm,F_N\nA,\"0,5\",2\n"), "cuts: /csv#line 2/z_mm: " + point);
+  EXPECT_EQ(
+      refused("setup;z_mm;F_N\nA;0,5;1.2\nA;1.2;2\n"),
+      "cuts: /csv#line 2/F_N: got \"1.2\", expected a decimal comma, here and in all "
+      "numbers");
 }
 
 TEST(Csv, WhatIsNoTableIsRefusedAtOnce) {

@@ -213,7 +213,7 @@ TEST(ResponseTable, EveryMistakeIsToldWithLineAndColumn) {
                 {"Frequency [Hz];Mag [mm/N];Phase [grad];Coherence [dB]",
                  "100;0,001;-10;0,9", "90;-0,001;-20;1,2", "110;0.001;-30;0,9",
                  "120;1,5x;;0,9", "130;0,1", "\"a;0,1;2;0,9", "2e6;1e13;2;0,9"}}}),
-      R"(stability: /frf/0/csv#line 4/Mag [mm~1N]: got "0.001", expected a decimal comma, as in the numbers before
+      R"(stability: /frf/0/csv#line 4/Mag [mm~1N]: got "0.001", expected a decimal comma, here and in all numbers
 stability: /frf/0/csv#line 5/Mag [mm~1N]: got "1,5x", expected a number from -1000000000000 to 1000000000000
 stability: /frf/0/csv#line 5/Phase [grad]: got nothing, expected a number from -1000000000000 to 1000000000000
 stability: /frf/0/csv#line 6: got 2 cells, expected 4 as in the header
