@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <tuple>
 #include <vector>
 
 #include "amounts.hpp"
@@ -249,11 +250,31 @@ std::string rules(const ordered_json& result) {
          numbered(sentences_of(all));
 }
 
+// The chosen combination, then the others by cost, those without a plan last.
+ordered_json by_cost(ordered_json all) {
+  const auto place = [](const ordered_json& a) {
+    const bool chosen = a.value("chosen", false), feasible = a.value("feasible", false);
+    return std::tuple(!chosen, !feasible, number(a, "cost_per_part").value_or(0));
+  };
+  std::stable_sort(
+      all.begin(), all.end(),
+      [&](const ordered_json& a, const ordered_json& b) { return place(a) < place(b); });
+  return all;
+}
+
 std::string alternatives(const ordered_json& result) {
+  constexpr std::size_t kShown = 10;
   const auto& all = list(result, "alternatives");
   if (all.empty()) return "";
+  auto sentences = sentences_of(all);
+  std::string more;
+  if (all.size() > kShown) {
+    sentences = sentences_of(by_cost(all));
+    sentences.resize(kShown);
+    more = "  " + say("and {} more, in the result as JSON", all.size() - kShown) + '\n';
+  }
   return '\n' + tr("ALTERNATIVES  each combination, planned") + '\n' +
-         numbered(sentences_of(all));
+         numbered(sentences) + more;
 }
 
 }  // namespace

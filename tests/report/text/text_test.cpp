@@ -326,6 +326,29 @@ TEST(Text, CorrectionsLieAcrossThePage) {
   EXPECT_FALSE(has(text(result), "COMPENSATION"));
 }
 
+TEST(Text, ManyAlternativesAreTheChosenAndTheCheapest) {
+  auto result = feasible();
+  auto all = ordered_json::array();
+  for (int k = 0; k < 12; ++k)
+    all.push_back({{"feasible", k > 0},
+                   {"chosen", k == 5},
+                   {"cost_per_part", 30.0 - k},
+                   {"sentence", "way " + std::to_string(k)}});
+  result["alternatives"] = all;
+  auto out = text(result);
+  EXPECT_TRUE(has_line(out, "  1. way 5"));
+  EXPECT_TRUE(has_line(out, "  2. way 11"));
+  EXPECT_EQ(row(out, "10. way"), "10. way 2");
+  EXPECT_TRUE(has_line(out, "  and 2 more, in the result as JSON"));
+  EXPECT_FALSE(has(out, "way 0"));
+  all.erase(10);
+  all.erase(10);
+  result["alternatives"] = all;
+  out = text(result);
+  EXPECT_TRUE(has_line(out, "  1. way 0"));
+  EXPECT_FALSE(has(out, " more, in the result"));
+}
+
 TEST(Text, TheEightLargestPricesAreRanked) {
   auto result = feasible();
   for (int k = 2; k <= 11; ++k) {

@@ -55,7 +55,7 @@ test('words of the documents are known', () => {
 
 test('limits of operations and causes are known', () => {
   const literals = (path, pattern) => [...projectFile(path).matchAll(pattern)].map(([, name]) => name);
-  const limits = literals('src/planning/limits/limit_table.cpp', /(?:\.name = |row\(|roughness<\w+>\(|no_limit\(|least_of_window<[^(]*>\(\s*|largest_of_window<[^(]*>\(\s*)"([^"]+)"/g);
+  const limits = literals('src/planning/limits/limit_table.cpp', /(?:\.name = |row\(|roughness<\w+>\(|no_limit\(|least_of_window<[^(]*>\(\s*|largest_of_window<[^(]*>\(\s*)(?:to_translate\()?"([^"]+)"/g);
   assert.ok(limits.length > 25, limits.join());
   for (const name of limits) assert.ok(known.includes(name), name);
 });
