@@ -114,10 +114,10 @@ if(NOT TURNWRIGHT_SANITIZE)
 endif()
 
 # The documentation as a folder: no broken link, and search works without a server.
-add_test(NAME docs.site CONFIGURATIONS slow COMMAND bash
+add_test(NAME docs.site COMMAND bash
   ${PROJECT_SOURCE_DIR}/tests/package/site.bash ${PROJECT_SOURCE_DIR}/scripts/site
   ${PROJECT_BINARY_DIR}/site-test)
-set_tests_properties(docs.site PROPERTIES LABELS slow TIMEOUT 600
+set_tests_properties(docs.site PROPERTIES TIMEOUT 600
   SKIP_REGULAR_EXPRESSION "SKIPPED")
 add_test(NAME docs.quotes COMMAND ${PROJECT_SOURCE_DIR}/scripts/quote --check)
 add_test(NAME guide.commands COMMAND bash

@@ -15,7 +15,13 @@ def reference(target, here):
     file, _, pointer = target.partition("#")
     page = (file or here).removesuffix(".json") + ".md"
     name = pointer.rsplit("/", 1)[-1]
-    return f"[{name or file}]({page if file else ''}{'#' + name.lower() if name else ''})"
+    place = member(name) if "/properties/" in pointer else name.lower()
+    return f"[{name or file}]({page if file else ''}{'#' + place if name else ''})"
+
+
+def member(name):
+    """The place of a document's own member in its page."""
+    return "member-" + name.lower()
 
 
 def kind(schema, here):
@@ -46,26 +52,27 @@ def limits(schema):
 def rows(schema, place, here):
     """A row for each member, those of inner objects below it."""
     required = schema.get("required", [])
-    for name, member in schema.get("properties", {}).items():
-        if not isinstance(member, dict) or name == "$schema":
+    for name, value in schema.get("properties", {}).items():
+        if not isinstance(value, dict) or name == "$schema":
             continue
         path = f"{place}{name}"
+        anchor = "" if place else f'<a id="{member(name)}"></a>'
         must = " **(required)**" if name in required else ""
-        yield (f"| `{path}`{must} | {kind(member, here)} | {limits(member)} | "
-               f"{cell(member.get('description', ''))} |")
-        yield from inner(member, path, here)
+        yield (f"| {anchor}`{path}`{must} | {kind(value, here)} | {limits(value)} | "
+               f"{cell(value.get('description', ''))} |")
+        yield from inner(value, path, here)
     for one in schema.get("oneOf", []) + schema.get("anyOf", []):
         if isinstance(one, dict):
             yield from rows({key: value for key, value in one.items() if key != "required"}
                             | {"required": one.get("required", [])}, place, here)
 
 
-def inner(member, path, here):
-    items = member.get("items")
+def inner(value, path, here):
+    items = value.get("items")
     if isinstance(items, dict):
         yield from inner(items, path + "[]", here)
-    elif "$ref" not in member:
-        yield from rows(member, path + ".", here)
+    elif "$ref" not in value:
+        yield from rows(value, path + ".", here)
 
 
 def table(schema, here):
