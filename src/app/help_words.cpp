@@ -31,7 +31,9 @@ constexpr Sentence kSentences[] = {
     {"(.+) requires (.+)", to_translate("{} requires {}")},
     {"(.+) excludes (.+)", to_translate("{} excludes {}")},
     {"(.+): (.+) not in (.+)", to_translate("{}: {} not in {}")},
-    {"(.+): ([0-9]+) required (.+) missing", to_translate("{}: {} required {} missing")}};
+    {"(.+): ([0-9]+) required (.+) missing", to_translate("{}: {} required {} missing")},
+    {"(.+): At Most ([0-9]+) required but received ([0-9]+)",
+     to_translate("{}: at most {}, but given {} times")}};
 
 std::string spoken_error(const std::string& said) {
   for (const auto& sentence : kSentences) {

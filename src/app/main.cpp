@@ -551,7 +551,7 @@ std::string early_option(int argc, char** argv, const std::string& option,
 void speak_as_asked(int argc, char** argv) {
   const char* variable = std::getenv("TURNWRIGHT_LANGUAGE");
   const auto language =
-      early_option(argc, argv, "--language", variable ? variable : "en");
+      early_option(argc, argv, "--language", variable && *variable ? variable : "en");
   if (language == "en") return;
   const auto data = early_option(argc, argv, "--data", "");
   speak(language, document::translations(

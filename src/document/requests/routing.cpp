@@ -36,7 +36,7 @@ ordered_json routing_rows(const std::string& part, const std::string& made_by,
   for (const auto& setup : offer.plan->setups) {
     const auto total = setup.breakdown.total();
     const auto& share = setup.breakdown.setup_share;
-    const auto clamping = planning::name(setup.clamping);
+    const auto clamping = tr(planning::name(setup.clamping));
     const bool held_by_left = setup.hold == part::End::left;
     rows.push_back(
         {{"part", part},

@@ -5,6 +5,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "base/say.hpp"
+
 namespace turnwright::exchange::notated {
 namespace {
 
@@ -42,7 +44,7 @@ void Mistakes::add(Word at, std::string expected, std::string got) {
       std::count_if(before.begin() + static_cast<std::ptrdiff_t>(begin), before.end(),
                     [](char c) { return !continues_character(c); }) +
       1;
-  list_.push_back({"line " + std::to_string(line) + ", column " + std::to_string(column),
+  list_.push_back({say("line {}, column {}", line, column),
                    got.empty() ? shown_word(at) : std::move(got), std::move(expected),
                    "notation"});
 }

@@ -1,8 +1,9 @@
 #include "result_words.hpp"
 
 #include <algorithm>
+#include <string_view>
 
-#include "turnwright/base/language.hpp"
+#include "base/say.hpp"
 
 namespace turnwright::report {
 namespace {
@@ -72,6 +73,8 @@ std::string spoken(const std::string& word) {
 }
 
 std::string spoken_limit(const std::string& name) {
+  constexpr std::string_view kCost = "cost ";
+  if (name.starts_with(kCost)) return say("cost {}", name.substr(kCost.size()));
   const auto kind = name.rfind(' ') + 1;
   const auto whole = spoken(name);
   return whole != name || kind == 0 ? whole

@@ -8,7 +8,8 @@ namespace turnwright::report {
 /// chuck") as a reader says it; whatever else, an id say, as it is.
 std::string spoken(const std::string& word);
 
-/// The name of a limit; of a tolerance its id and its kind, "t1 cylindricity".
+/// The name of a limit; of a tolerance its id and its kind, "t1 cylindricity"; where a window
+/// ends by its cost, "cost +5 %".
 std::string spoken_limit(const std::string& name);
 
 }  // namespace turnwright::report

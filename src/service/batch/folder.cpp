@@ -14,6 +14,7 @@
 #include "base/say.hpp"
 #include "document/json/file.hpp"
 #include "document/json/reader.hpp"
+#include "turnwright/base/language.hpp"
 #include "turnwright/base/pattern.hpp"
 
 namespace turnwright::service {
@@ -165,7 +166,9 @@ std::string BatchManifest::text() const {
 
 std::string data_sha256(const fs::path& data_folder) {
   std::vector<fs::path> files;
-  for (const char* folder : {"materials", "tools", "machines", "shops"})
+  const std::vector<std::string> folders{"materials", "tools", "machines", "shops",
+                                         "languages/" + language()};
+  for (const auto& folder : folders)
     if (fs::is_directory(data_folder / folder))
       for (const auto& entry : fs::recursive_directory_iterator(data_folder / folder))
         if (entry.path().extension() == ".json")

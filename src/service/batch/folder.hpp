@@ -22,7 +22,7 @@ namespace turnwright::service {
 
 struct BatchManifest {
   BatchInput::Contents input;
-  std::string data_sha256;  ///< of materials, tools and machines
+  std::string data_sha256;  ///< of materials, tools and machines, and the language
   std::int64_t chunk_lines = 100;
 
   std::string text() const;  ///< content of manifest.json, with the version
@@ -35,7 +35,8 @@ struct BatchSummary {
   std::string sha256;
 };
 
-/// SHA-256 over names and contents of all files that load_catalogue() reads.
+/// SHA-256 over names and contents of all files that load_catalogue() reads, and of the
+/// translations into the program's language: results have sentences.
 std::string data_sha256(const std::filesystem::path& data_folder);
 
 class BatchFolder {

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "base/say.hpp"
+#include "turnwright/base/language.hpp"
 
 namespace turnwright::service {
 namespace {
@@ -146,7 +147,8 @@ std::string SlurmBatch::submit(const std::vector<std::int64_t>& tasks) {
                  "\n#SBATCH --cpus-per-task=" + std::to_string(options_.jobs) +
                  "\n#SBATCH --requeue --open-mode=append --output=slurm-%a.log\nexec " +
                  quoted(options_.program) + " --data " + quoted(options_.data) +
-                 " batch " + quoted(fs::canonical(input_.file())) + " -o " +
+                 " --language " + language() + " batch " +
+                 quoted(fs::canonical(input_.file())) + " -o " +
                  quoted(fs::canonical(folder_.path())) + " --jobs " +
                  std::to_string(options_.jobs) + " --shard \"$SLURM_ARRAY_TASK_ID/" +
                  std::to_string(tasks_) + "\"\n");

@@ -7,6 +7,7 @@
 #include "../../temporary_folder.hpp"
 #include "service/batch/runner.hpp"
 #include "turnwright/base/errors.hpp"
+#include "turnwright/base/language.hpp"
 
 namespace turnwright::service::folder_test {
 namespace {
@@ -118,6 +119,18 @@ TEST_F(DataDigest, ChangesWithEveryFileAndName) {
   EXPECT_EQ(data_sha256(folder_), third);
   EXPECT_NE(first, second);
   EXPECT_NE(second, third);
+}
+
+TEST_F(DataDigest, IsOfTheLanguageThatResultsAreIn) {
+  fs::create_directories(folder_ / "materials");
+  fs::create_directories(folder_ / "languages/de");
+  std::ofstream(folder_ / "materials/a.json") << "1";
+  const auto english = data_sha256(folder_);
+  std::ofstream(folder_ / "languages/de/all.json") << "2";
+  EXPECT_EQ(data_sha256(folder_), english);
+  speak("de", {});
+  EXPECT_NE(data_sha256(folder_), english);
+  speak("en", {});
 }
 
 }  // namespace
