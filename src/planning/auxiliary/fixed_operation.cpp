@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "base/say.hpp"
 #include "chosen_conditions.hpp"
@@ -50,14 +51,19 @@ void tighten(std::vector<ConstraintValue>& all, const ConstraintValue& c) {
 Fitted fitted(const PlanRequest& p, const Asked& a) {
   Fitted best;
   const bool smallest = a.use == FixedUse::parting || a.use == FixedUse::countersinking;
+  const auto is_better = [&](const FixedTool& t, double size) {
+    if (!best.tool) return true;
+    if (size != best.size_mm) return smallest == (size < best.size_mm);
+    return a.use == FixedUse::drilling &&
+           std::tie(t.reach, t.id) < std::tie(best.tool->reach, best.tool->id);
+  };
   for (const auto& t : p.fixed_tools) {
     const auto* at = t.conditions_in(p.material.group);
     if (t.use != a.use || !at || t.inner != a.inner) continue;
     if (a.given && a.given->tool && *a.given->tool != t.id) continue;
     const auto sizes = t.sizes_mm.empty() ? std::vector{0.0} : t.sizes_mm;
     for (const double size : sizes)
-      if (a.fits(t, size) && of_given_depth(a, size) &&
-          (!best.tool || (smallest ? size < best.size_mm : size > best.size_mm)))
+      if (a.fits(t, size) && of_given_depth(a, size) && is_better(t, size))
         best = {&t, size, *at, {}, {}};
   }
   if (!best.tool) return best;

@@ -52,7 +52,7 @@ struct Fitted {
 };
 
 /// The largest size that fits (for parting off and countersinking the smallest), of the
-/// first tool that has it.
+/// first tool that has it; of drills the shortest.
 Fitted fitted(const PlanRequest& request, const Asked& asked);
 /// The same among those that can be borne at the catalogue's conditions, else at the
 /// gentlest; if none can, or the operation is given, the one of all, whose limits then tell

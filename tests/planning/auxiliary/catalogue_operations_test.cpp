@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -693,6 +694,21 @@ TEST(Refused, OperationsWithoutAToolSayWhatItWouldHaveToBe) {
                  "normalised, 190 HB and an end of "
                  "32 mm"),
             "");
+}
+
+TEST(Drilling, TakesTheShortestOfItsSizeInWhateverOrderTheDrillsStand) {
+  PlanRequest request = part(reference_part("drilled-bush"));
+  request.fixed_tools = shop().fixed_tools;
+  const auto tool = [](const PlanRequest& r) {
+    std::string drill;
+    for (const auto& s : plan(r).setups)
+      for (const auto& o : s.operations)
+        if (o.tool.starts_with("DRILL")) drill += o.tool;
+    return drill;
+  };
+  EXPECT_EQ(tool(request), "DRILL-HM-3D");
+  std::ranges::reverse(request.fixed_tools);
+  EXPECT_EQ(tool(request), "DRILL-HM-3D");
 }
 
 TEST(Given, ConditionsThatCannotBeAreTold) {
