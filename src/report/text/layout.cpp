@@ -23,9 +23,10 @@ std::size_t bytes(std::string_view text, std::size_t count) {
 
 // Bytes of what of a word that is too long stands on a line of its own: up to the last
 // mark between the parts of an id.
+constexpr std::string_view kMarks = "-:|/_";
 std::size_t first_piece(std::string_view word, std::size_t width) {
   const auto fits = bytes(word, width);
-  const auto mark = word.substr(0, fits).find_last_of("-:|/_");
+  const auto mark = word.substr(0, fits).find_last_of(kMarks);
   return mark == word.npos ? fits : mark + 1;
 }
 
@@ -41,6 +42,18 @@ std::vector<std::string_view> words(std::string_view text) {
   return all;
 }
 
+// Characters of the longest piece of a text that stands on one line if it has room.
+std::size_t longest_piece(std::string_view text) {
+  std::size_t longest = 0;
+  for (auto word : words(text))
+    while (!word.empty()) {
+      const auto mark = std::min(word.find_first_of(kMarks), word.size() - 1);
+      longest = std::max(longest, characters(word.substr(0, mark + 1)));
+      word.remove_prefix(mark + 1);
+    }
+  return longest;
+}
+
 std::string padded(const std::string& text, std::size_t width, Align align) {
   const auto have = characters(text);
   const std::string pad(width > have ? width - have : 0, ' ');
@@ -49,24 +62,41 @@ std::string padded(const std::string& text, std::size_t width, Align align) {
 
 void trim_right(std::string& line) { line.erase(line.find_last_not_of(' ') + 1); }
 
+// The widest of the columns that may be narrower; none if none may.
+std::optional<std::size_t> widest(const std::vector<Column>& columns,
+                                  const std::vector<std::size_t>& width,
+                                  const std::vector<std::size_t>& least) {
+  std::optional<std::size_t> found;
+  for (std::size_t i = 0; i < width.size(); ++i)
+    if (columns[i].align == Align::left && width[i] > least[i] &&
+        (!found || width[i] > width[*found]))
+      found = i;
+  return found;
+}
+
+// Columns give way until the table fits: first at blanks and marks, then within words.
 std::vector<std::size_t> widths(const std::vector<Column>& columns,
                                 const std::vector<Row>& rows) {
   constexpr std::size_t kLeast = 6;
-  std::vector<std::size_t> all;
+  std::vector<std::size_t> all, unbroken;
   std::size_t total = kIndent;
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    std::size_t width = characters(columns[i].title);
-    for (const auto& row : rows) width = std::max(width, characters(row.cells[i]));
+    std::size_t width = characters(columns[i].title),
+                piece = longest_piece(columns[i].title);
+    for (const auto& row : rows) {
+      width = std::max(width, characters(row.cells[i]));
+      piece = std::max(piece, longest_piece(row.cells[i]));
+    }
     all.push_back(width);
+    unbroken.push_back(std::max(piece, kLeast));
     total += width + (i > 0 ? kGap : 0);
   }
+  const std::vector<std::size_t> least(columns.size(), kLeast);
   for (; total > kPageWidth; --total) {
-    std::optional<std::size_t> widest;
-    for (std::size_t i = 0; i < all.size(); ++i)
-      if (columns[i].align == Align::left && (!widest || all[i] > all[*widest]))
-        widest = i;
-    if (!widest || all[*widest] <= kLeast) break;
-    --all[*widest];
+    auto narrower = widest(columns, all, unbroken);
+    if (!narrower) narrower = widest(columns, all, least);
+    if (!narrower) break;
+    --all[*narrower];
   }
   return all;
 }
