@@ -1,5 +1,6 @@
 #include "turnwright/planning/limit_words.hpp"
 
+#include <string_view>
 #include <utility>
 
 #include "base/say.hpp"
@@ -8,6 +9,8 @@ namespace turnwright::planning {
 
 std::string limit_words(const std::string& name) {
   if (auto whole = tr(name); whole != name) return whole;
+  constexpr std::string_view kCost = "cost ";
+  if (name.starts_with(kCost)) return say("cost {}", name.substr(kCost.size()));
   const auto parts = [&](const std::string& between) {
     const auto at = name.rfind(between);
     return at == std::string::npos

@@ -7,8 +7,8 @@
 
 #include "base/say.hpp"
 #include "report/text/layout.hpp"
-#include "report/text/result_words.hpp"
 #include "svg.hpp"
+#include "turnwright/planning/limit_words.hpp"
 
 namespace turnwright::report {
 namespace {
@@ -53,7 +53,8 @@ void name_line(Sheet& s, const std::string& name, Point at,
   const std::string letter(1, static_cast<char>('a' + (s.named.size() - 1) % 26));
   s.svg.text({at.x + 0.8, at.y - 0.8}, Anchor::start, letter, css_class);
   s.svg.text({kKey, s.key}, Anchor::start,
-             letter + "  " + clipped(spoken_limit(name), kNameLength), css_class);
+             letter + "  " + clipped(planning::limit_words(name), kNameLength),
+             css_class);
   s.key += kKeyGap;
 }
 

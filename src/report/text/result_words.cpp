@@ -1,7 +1,6 @@
 #include "result_words.hpp"
 
 #include <algorithm>
-#include <string_view>
 
 #include "base/say.hpp"
 
@@ -41,22 +40,6 @@ constexpr const char* kWords[] = {
     to_translate("repeatability"), to_translate("wear"), to_translate("life"),
     to_translate("heat"), to_translate("rechucking"), to_translate("measurement"),
     to_translate("passive force"), to_translate("compliance"),
-    // limits
-    to_translate("power"), to_translate("torque"), to_translate("feed force"),
-    to_translate("cutting force"), to_translate("grip of the chuck"),
-    to_translate("chatter stiffness"), to_translate("roughness Ra"),
-    to_translate("roughness Rz"), to_translate("least depth of cut"),
-    to_translate("largest depth of cut"), to_translate("depth of cut"),
-    to_translate("least feed"), to_translate("largest feed"),
-    to_translate("least feed of the chip breaker"),
-    to_translate("largest feed of the chip breaker"), to_translate("feed speed"),
-    to_translate("least cutting speed"), to_translate("largest cutting speed"),
-    to_translate("cutting speed"), to_translate("least spindle speed"),
-    to_translate("largest spindle speed"), to_translate("spindle speed"),
-    to_translate("spindle speed that leaves a third of the grip"),
-    to_translate("least tool life"), to_translate("longest tool life"),
-    to_translate("stable depth with its margin"), to_translate("compliance of the part"),
-    to_translate("chip thickness"), to_translate("least chip thickness"),
     // effects in a ball-bar test
     to_translate("centre offset"), to_translate("mean scale"),
     to_translate("scale mismatch"), to_translate("squareness"),
@@ -70,15 +53,6 @@ constexpr const char* kWords[] = {
 std::string spoken(const std::string& word) {
   const bool known = std::ranges::find(kWords, word) != std::end(kWords);
   return known ? tr(word) : word;
-}
-
-std::string spoken_limit(const std::string& name) {
-  constexpr std::string_view kCost = "cost ";
-  if (name.starts_with(kCost)) return say("cost {}", name.substr(kCost.size()));
-  const auto kind = name.rfind(' ') + 1;
-  const auto whole = spoken(name);
-  return whole != name || kind == 0 ? whole
-                                    : name.substr(0, kind) + spoken(name.substr(kind));
 }
 
 }  // namespace turnwright::report

@@ -12,6 +12,7 @@
 #include "provenance.hpp"
 #include "result_words.hpp"
 #include "text.hpp"
+#include "turnwright/planning/limit_words.hpp"
 
 namespace turnwright::report {
 namespace {
@@ -37,7 +38,7 @@ double minutes_of(const ordered_json& cut) {
 }
 
 std::string broken(const ordered_json& l) {
-  const auto name = spoken_limit(word(l, "name")), unit = word(l, "unit");
+  const auto name = planning::limit_words(word(l, "name")), unit = word(l, "unit");
   const auto value = significant(number(l, "value"), 3),
              limit = significant(number(l, "limit"), 3);
   return flag(l, "at_most")
@@ -172,11 +173,11 @@ std::string predicted_tolerances(const ordered_json& result) {
              {tr("verdict"), Align::left}},
             rows);
   for (const auto& l : list(predicted, "limits"))
-    text +=
-        paragraph(tr("  NOT KEPT  "),
-                  say("{}: {} {} {}, limit {}", word(l, "operation"),
-                      spoken_limit(word(l, "name")), significant(number(l, "value"), 3),
-                      word(l, "unit"), significant(number(l, "limit"), 3)));
+    text += paragraph(
+        tr("  NOT KEPT  "),
+        say("{}: {} {} {}, limit {}", word(l, "operation"),
+            planning::limit_words(word(l, "name")), significant(number(l, "value"), 3),
+            word(l, "unit"), significant(number(l, "limit"), 3)));
   return text;
 }
 

@@ -6,6 +6,7 @@
 #include "certificate_words.hpp"
 #include "json_fields.hpp"
 #include "result_words.hpp"
+#include "turnwright/planning/limit_words.hpp"
 
 namespace turnwright::report {
 namespace {
@@ -111,7 +112,7 @@ std::string note(const ordered_json& operation) {
   for (const auto& id : list(operation, "on"))
     if (id.is_string()) on.push_back(id.get<std::string>());
   for (const auto& c : list(operation, "constraints"))
-    if (flag(c, "binding")) binding.push_back(spoken_limit(word(c, "name")));
+    if (flag(c, "binding")) binding.push_back(planning::limit_words(word(c, "name")));
   const bool mills = operation.contains("milling");
   const auto direction = mills ? "" : word(operation, "direction");
   if (word(operation, "kind") == "fixed") {
