@@ -138,7 +138,6 @@ void beam(benchmark::State& state, Shape shape) {
   const auto a = places(s);
   for (auto _ : state) benchmark::DoNotOptimize(by_beam(s, a));
   state.SetItemsProcessed(state.iterations() * static_cast<long>(kPositions));
-  state.SetComplexityN(state.range(0));
 }
 
 void positions_only(benchmark::State& state, Shape shape) {
@@ -181,10 +180,7 @@ BENCHMARK_CAPTURE(beam, bored, Shape::bored)->Arg(10);
 BENCHMARK_CAPTURE(beam, bored_cones, Shape::bored_cones)->Arg(10);
 BENCHMARK_CAPTURE(positions_only, solid, Shape::solid);
 BENCHMARK_CAPTURE(positions_only, bored_cones, Shape::bored_cones);
-BENCHMARK_CAPTURE(beam, growth, Shape::bored_cones)
-    ->RangeMultiplier(10)
-    ->Range(10, 1000)
-    ->Complexity(benchmark::oN);
+BENCHMARK_CAPTURE(beam, growth, Shape::bored_cones)->RangeMultiplier(10)->Range(10, 1000);
 BENCHMARK_CAPTURE(finite_elements, solid, Shape::solid);
 BENCHMARK_CAPTURE(finite_elements, bored, Shape::bored);
 

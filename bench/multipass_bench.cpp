@@ -70,7 +70,7 @@ BENCHMARK(random_problems)->Unit(benchmark::kMillisecond);
 
 void isres(benchmark::State& state, const Problem& m) {
   const Answer a = optimum(m);
-  Oracle o{m, a.best->n};
+  Oracle o{m, static_cast<double>(a.best->n)};
   const Span s = span(o);
   double found = std::numeric_limits<double>::infinity();
   for (auto _ : state) {

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <nlopt.hpp>
 
 #include "document/json/file.hpp"
@@ -22,12 +23,48 @@ namespace {
 using namespace turnwright;
 using namespace turnwright::planning;
 
+const std::string kRoot = TURNWRIGHT_SOURCE_DIR;
+
+PreparedPart prepared(const nlohmann::json& part, const std::string& name) {
+  static const auto catalogue = document::load_catalogue(kRoot);
+  return document::prepared_part(part, catalogue, name).part;
+}
+
 PreparedPart reference_part(const std::string& name) {
-  const std::string root = TURNWRIGHT_SOURCE_DIR;
-  static const auto catalogue = document::load_catalogue(root);
-  return document::prepared_part(document::parse_file(root + "/parts/" + name + ".json"),
-                                 catalogue, name)
-      .part;
+  return prepared(document::parse_file(kRoot + "/parts/" + name + ".json"), name);
+}
+
+// A shaft of 320 mm that rises to its middle in steps and falls again, every seat of the
+// same fit, turned from both ends between chuck and tailstock.
+PreparedPart stepped_shaft(int elements) {
+  const double length = 320, least = 30, most = 54, stock = 60, allowance = 2;
+  auto outer = nlohmann::json::array(), setups = outer;
+  for (int i = 0; i < elements; ++i) {
+    const double up = std::min(i, elements - 1 - i) / std::floor(elements / 2);
+    outer.push_back({{"id", "d" + std::to_string(i + 1)},
+                     {"kind", "cylinder"},
+                     {"length_mm", length / elements},
+                     {"diameter_mm", least + (most - least) * up},
+                     {"fit", "h8"},
+                     {"Ra_um", 1.6}});
+  }
+  for (const char* end : {"left", "right"})
+    setups.push_back(
+        {{"hold", end}, {"grip_mm", 50}, {"clampings", {"chuck-tailstock"}}});
+  return prepared({{"format", "turnwright-part/1"},
+                   {"name", "stepped shaft"},
+                   {"material", "C45"},
+                   {"stock",
+                    {{"kind", "bar"},
+                     {"diameter_mm", stock},
+                     {"length_mm", length + 2 * allowance},
+                     {"left_allowance_mm", allowance}}},
+                   {"outer", outer},
+                   {"general", "ISO 2768-mK"},
+                   {"machine", "lathe-medium"},
+                   {"setups", setups},
+                   {"rates", {{"machine_per_min", 1.2}}}},
+                  "stepped shaft");
 }
 
 using optimise::Problem;
@@ -251,7 +288,7 @@ void certified(benchmark::State& state, const RecipeModel& model) {
   long nodes = 0;
   for (auto _ : state) {
     const auto s = optimise::local_minimum(model.problem(), start);
-    std::vector<optimise::Piece> one{model.piece(1, s.multipliers)};
+    std::vector<optimise::Piece> one{model.piece(1, s)};
     nodes = optimise::branch_and_bound(one, s.f, {.gap = 9e-5}).nodes;
   }
   state.counters["nodes"] = static_cast<double>(nodes);
@@ -272,6 +309,8 @@ int main(int argc, char** argv) {
   for (const char* name :
        {"gearbox-input-shaft", "piston-rod", "spindle-nose", "infeasible-as-drawn"})
     add_plan(name, reference_part(name));
+  for (const int elements : {5, 10, 20, 40})
+    add_plan("growth/" + std::to_string(elements), stepped_shaft(elements));
 
   const auto gearbox = reference_part("gearbox-input-shaft");
   const auto one = seat(gearbox, 4, {});
