@@ -135,7 +135,8 @@ void nc_blocks(benchmark::State& state) {
   const auto text = blocks();
   const std::vector<std::string_view> lines(text.begin(), text.end());
   const Machine m = machine("wfXYZt");
-  for (auto _ : state) benchmark::DoNotOptimize(compensate(read_nc(lines, {}), m, {}));
+  for (auto _ : state)
+    benchmark::DoNotOptimize(compensate(gcode::read_nc(lines, {}), m, {}));
 }
 BENCHMARK(nc_blocks)->Unit(benchmark::kMillisecond)->Iterations(1);
 
