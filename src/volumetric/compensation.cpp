@@ -460,8 +460,9 @@ Compensated compensate(const NcProgram& program, const Machine& machine,
   const Field field(machine, setup);
   const bool full = options.method == Method::full_field;
   Compensated out;
-  out.lines.reserve(program.moves.size());
-  out.distances_mm.reserve(program.moves.size());
+  // Feeds that reverse become two moves; memory that is not used is not touched.
+  out.lines.reserve(2 * program.moves.size());
+  out.distances_mm.reserve(2 * program.moves.size());
   NcWriter writer(setup, options.decimals);
   Run run(field, writer, options, program.start_mm);
   Distances before, after;
