@@ -209,6 +209,12 @@ class Walk {
   std::vector<End> ends_;  // of the current move
 };
 
+/// Notes the error at a stop's target with the signs of its motion.
+void find_error(const Field& field, Stop& s) {
+  s.error = field.error(*s.tool, s.target, s.sign, s.target);
+  s.error_sign = s.sign;
+}
+
 /// The error at a stop's target, uncorrected.
 Vec3 error_at_target(const Field& field, const Stop& s, const Vec3& sign) {
   return sign == s.error_sign ? s.error : field.error(*s.tool, s.target, sign, s.target);
@@ -355,8 +361,7 @@ class Run {
   /// that in `start` go to the target of `s`, or farther if the way back to `start` would
   /// not take up their backlash; the others go to their command of `start`.
   Stop gone_beyond(const Stop& start, Stop s) const {
-    s.error = field_.error(*s.tool, s.target, s.sign, s.target);
-    s.error_sign = s.sign;
+    find_error(field_, s);
     correct(field_, o_.passes, s.error, s);
     for (std::size_t k = 0; k < 3; ++k) {
       if (s.sign[k] == start.sign[k]) {
@@ -393,8 +398,7 @@ class Run {
     s.sign = signs(s.from, s.target, sign_, o_.at_rest);
     for (int round = 0; round < kRounds; ++round) {
       start.sign = s.sign;
-      start.error = field_.error(*s.tool, s.from, s.sign, s.from);
-      start.error_sign = s.sign;
+      find_error(field_, start);
       correct(field_, o_.passes, start.error, start);
       correct(field_, o_.passes, error_at_target(field_, s, s.sign), s);
       if (!follows_) return;
