@@ -91,6 +91,32 @@ TEST(LinuxCncCompensation, CorrectsTheAxis) {
     }
 }
 
+// Where LinuxCNC 2.9 itself sent the motor (joint.0.motor-pos-cmd, seven digits) by each of
+// these moves, one after the other, with the file of either type.
+TEST(LinuxCncCompensation, LinuxCncItselfMovesThus) {
+  const Points points{{0, 0.00012, 0.00406},   {57, 0.00244, 0.00626},
+                      {121, 0.00456, 0.00846}, {178, 0.00638, 0.01032},
+                      {243, 0.00858, 0.01228}, {300, 0.01044, 0.01408}};
+  struct Moved {
+    double to, motor;
+  };
+  for (const auto type : {CompFileType::actual, CompFileType::trim}) {
+    const Joint joint(comp_file(points, type, 1), type == CompFileType::actual ? 0 : 1);
+    double before = 0;
+    for (const auto& [to, motor] :
+         {Moved{28.5, 28.49872}, Moved{100, 99.99614}, Moved{57, 56.99374},
+          Moved{200, 199.9929}, Moved{310, 309.9896}, Moved{250, 249.9875},
+          Moved{121, 120.9915}, Moved{60, 59.99364}, Moved{10, 9.995554},
+          Moved{-3, -3.00406}, Moved{0, -0.00012}, Moved{150, 149.9945}}) {
+      const double half_digit = std::abs(to) < 10    ? 5.1e-7
+                                : std::abs(to) < 100 ? 5.1e-6
+                                                     : 5.1e-5;
+      EXPECT_NEAR(joint.motor(to, to - before), motor, half_digit) << to;
+      before = to;
+    }
+  }
+}
+
 TEST(LinuxCncCompensation, SignsAreThoseOfTheDocumentation) {
   const Points one{{-1, -0.005, 0.005}, {0, 0.002, -0.003}};
   EXPECT_EQ(comp_file(one, CompFileType::actual, 1),

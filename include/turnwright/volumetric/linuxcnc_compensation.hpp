@@ -31,7 +31,8 @@ constexpr std::size_t kCompFileRows = 256;
 ///
 /// Numbers have 6 decimals in mm, 7 in inches, so that rounding adds up to 1 nm.
 /// Source: LinuxCNC 2.9, usrmotLoadComp (usrmotintf.cc), EMCMOT_SET_JOINT_COMP (command.c),
-/// compute_screw_comp (control.c); INI configuration, JOINT section.
+/// compute_screw_comp (control.c); INI configuration, JOINT section.  LinuxCNC itself ran files
+/// of both types, see linuxcnc_compensation_test.
 /// @param unit_mm  the machine's unit, 1 or 25.4
 /// @throws std::domain_error without points, for more than kCompFileRows, or if their nominal
 ///   positions as written do not rise.
