@@ -21,6 +21,7 @@
 #include "document/json/file.hpp"
 #include "document/json/parse.hpp"
 #include "document/json/reader.hpp"
+#include "document/json/utf8.hpp"
 #include "document/response/measured_file.hpp"
 #include "exit.hpp"
 #include "foreign_file.hpp"
@@ -63,7 +64,10 @@ struct Arguments {
   std::vector<fs::path> results;        ///< QIF files of measured parts
   std::vector<fs::path> responses;      ///< files of measured responses, for `frf`
   std::optional<fs::path> sound;        ///< of a cut, for `wav`
-  bool update = false;                  ///< the factors of the models by them
+  std::optional<fs::path> readings;     ///< of a laser, for `readings`
+  std::optional<fs::path> comp_file;    ///< of LinuxCNC, for `comp_file`
+  std::optional<fs::path> written_comp_file;
+  bool update = false;  ///< the factors of the models by them
   bool json = false;
   std::string listed;
 };
@@ -183,6 +187,7 @@ std::vector<Output> outputs(const Arguments& arguments) {
   add("--output", arguments.result_file, nullptr);
   add("--report", arguments.report_file, nullptr);
   add("--xlsx", arguments.card, nullptr);
+  add("--write-comp-file", arguments.written_comp_file, nullptr);
   add("--drawings", arguments.drawings,
       [](const std::string& name) { return name.ends_with(".svg"); });
   add("--nc", arguments.programs,
@@ -306,6 +311,28 @@ void add_response(const std::filesystem::path& file, nlohmann::json& request) {
     entry.update(data);
 }
 
+bool is_of_positioning(const service::Request& row) {
+  return service::request_schema(row) == "positioning.request.json";
+}
+
+constexpr ForeignFile kReadings{to_translate("a table of at most so many"),
+                                to_translate("a table of readings"),
+                                document::kLocalLimits.bytes};
+
+constexpr ForeignFile kCompFile{to_translate("a table of at most so many"),
+                                to_translate("a compensation file of LinuxCNC"),
+                                document::kLocalLimits.bytes};
+
+/// Puts a file's text under a key of a member of the request, which is made if it is absent.
+void add_text(const std::optional<fs::path>& file, const ForeignFile& kind,
+              const char* member, const char* key, nlohmann::json& request) {
+  if (!file) return;
+  auto text = document::readable(read_foreign_file(file->string(), kind));
+  auto& group = request[member];
+  if (group.is_null()) group = nlohmann::json::object();
+  if (group.is_object()) group[key] = std::move(text);  // otherwise refused later
+}
+
 nlohmann::json asked(const Arguments& arguments) {
   if (arguments.file.empty() && !arguments.table && arguments.results.empty())
     throw wrong_option("REQUEST", tr("nothing"),
@@ -315,20 +342,26 @@ nlohmann::json asked(const Arguments& arguments) {
       arguments.file.empty() ? nlohmann::json::object() : read_request(arguments.file);
   if (!request.is_object()) return request;
   if (arguments.table)
-    request["csv"] = read_foreign_file(arguments.table->string(), kMeasured);
+    request["csv"] =
+        document::readable(read_foreign_file(arguments.table->string(), kMeasured));
   if (!arguments.results.empty() && !request.contains("qif"))
     request["qif"] = {{"files", nlohmann::json::array()}};
   const bool lists = request.contains("qif") && request["qif"].is_object() &&
                      request["qif"].value("files", nlohmann::json()).is_array();
   for (const auto& file : arguments.results)
     if (lists)
-      request["qif"]["files"].push_back(read_foreign_file(file.string(), kResults));
+      request["qif"]["files"].push_back(
+          document::readable(read_foreign_file(file.string(), kResults)));
   if (arguments.part) request["part"] = document::parse_file(*arguments.part);
   if (arguments.update) request["update"] = true;
   for (const auto& file : arguments.responses) add_response(file, request);
   if (arguments.sound)
     request["wav"] =
         document::sound_base64(read_foreign_file(arguments.sound->string(), kSound));
+  add_text(arguments.readings, kReadings, "readings", "csv", request);
+  add_text(arguments.comp_file, kCompFile, "comp_file", "text", request);
+  if (arguments.written_comp_file && !request.contains("write_comp_file"))
+    request["write_comp_file"] = nlohmann::json::object();
   return request;
 }
 
@@ -356,6 +389,9 @@ Exit run_request(const service::Request& row, const Arguments& arguments) {
     service::write_file(*arguments.report_file,
                         service::html_report(row, request, drawn));
   if (arguments.card) service::write_file(*arguments.card, process_card(result));
+  if (arguments.written_comp_file)
+    service::write_file(*arguments.written_comp_file,
+                        result["comp_file"]["text"].get<std::string>());
   const bool json_asked = arguments.json || (arguments.result_file && !to_file);
   if (row.text && !json_asked)
     print_report(row.text(result));
@@ -427,6 +463,14 @@ void add_commands(CLI::App& app, Arguments& arguments, std::function<Exit()>& ch
     if (is_of_sound(row))
       add_path(*command, "--wav", arguments.sound,
                tr("sound of the cut, as wav of the request"));
+    if (is_of_positioning(row)) {
+      add_path(*command, "--csv", arguments.readings,
+               tr("table of a laser's readings, as csv of the request's readings"));
+      add_path(*command, "--comp-file", arguments.comp_file,
+               tr("compensation file of LinuxCNC, as text of the request's comp_file"));
+      add_path(*command, "--write-comp-file", arguments.written_comp_file,
+               tr("write the compensation file for LinuxCNC here"));
+    }
     add_path(*command, "-o,--output", arguments.result_file,
              tr("write the result (JSON) here; - is standard output"),
              Dash::is_standard_output);

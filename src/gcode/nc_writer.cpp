@@ -77,19 +77,24 @@ double NcWriter::append(double value, int decimals) {
   if (!(scaled < 9e15))
     throw ModelRangeError(
         say("compensate: a corrected coordinate of {:f}, too far to be written", value));
-  std::array<char, 24> text;
+  std::array<char, 40> text;
   const auto whole = static_cast<std::uint64_t>(scaled);
   const bool negative = value < 0 && whole > 0;
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), whole).ptr;
-  const auto digits = end - text.data();
-  if (negative) line_ += '-';
-  if (digits > decimals)
-    line_.append(text.data(), end - decimals);
-  else
-    line_ += '0';
-  line_ += '.';
-  if (digits < decimals) line_.append(static_cast<std::size_t>(decimals - digits), '0');
-  line_.append(end - std::min<std::ptrdiff_t>(digits, decimals), end);
+  char* at = text.data();
+  if (negative) *at++ = '-';
+  char* end = std::to_chars(at + 1, text.data() + text.size(), whole).ptr;
+  const auto digits = end - (at + 1);
+  if (digits > decimals) {  // the whole part gives way to the point
+    at = std::copy(at + 1, end - decimals, at);
+  } else {
+    char* last = at + 2 + decimals;
+    std::copy_backward(at + 1, end, last);
+    *at++ = '0';
+    std::fill(at + 1, last - digits, '0');
+    end = last;
+  }
+  *at = '.';
+  line_.append(text.data(), end);
   const double written = static_cast<double>(whole) / scale;
   return negative ? -written : written;
 }

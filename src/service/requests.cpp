@@ -35,6 +35,7 @@
 #include "turnwright/document/nc.hpp"
 #include "turnwright/document/overhang.hpp"
 #include "turnwright/document/part_plan.hpp"
+#include "turnwright/document/positioning.hpp"
 #include "turnwright/document/process_plan.hpp"
 #include "turnwright/document/quote.hpp"
 #include "turnwright/document/review.hpp"
@@ -123,6 +124,18 @@ constexpr const char* kBallBarExample = R"({"analyse": {
              -0.0016, -0.0027, -0.0017],
   "cw_mm": [0.0001, 0.0008, 0.001, -0.0009, -0.0008, 0.0001, 0.0021, 0.0027, 0.001,
             -0.0012, -0.0014, -0.0004]}})";
+
+constexpr const char* kPositioningExample = R"({
+  "axis": "X", "readings": {"unit": "um",
+    "q_mm":  [0, 57, 121, 178, 243, 300, 0, 57, 121, 178, 243, 300, 0, 57, 121, 178, 243, 300,
+              0, 57, 121, 178, 243, 300, 0, 57, 121, 178, 243, 300],
+    "plus":  [0.0, 2.3, 4.6, 6.1, 8.4, 10.2, 0.3, 2.6, 4.4, 6.5, 8.9, 10.6,
+              -0.2, 2.1, 4.9, 6.3, 8.2, 10.1, 0.4, 2.8, 4.7, 6.8, 8.6, 10.9,
+              0.1, 2.4, 4.2, 6.2, 8.8, 10.4],
+    "minus": [3.9, 6.1, 8.2, 10.3, 12.1, 13.8, 4.2, 6.6, 8.5, 10.0, 12.6, 14.1,
+              3.7, 6.0, 8.9, 10.4, 12.3, 14.4, 4.1, 6.4, 8.1, 10.8, 12.0, 13.9,
+              4.4, 6.2, 8.6, 10.1, 12.4, 14.2]},
+  "write_comp_file": {"type": 0, "unit": "mm"}})";
 
 constexpr const char* kSambaExample = R"({
   "strategy": {
@@ -475,6 +488,11 @@ Drawn drawn_ball_bar(const json& request, const Context&) {
           {{"ballbar.svg", report::ball_bar_drawing(document::ball_bar_trace(request))}}};
 }
 
+Drawn drawn_positioning(const json& request, const Context&) {
+  const auto [result, axis, values] = document::positioned(request);
+  return {result, {{"positioning.svg", report::positioning_drawing(axis, values)}}};
+}
+
 Drawn drawn_compensate(const json& request, const Context&) {
   const auto [result, compensated] = document::compensated(request);
   return {result, {{"residual.svg", report::compensation_drawing(compensated)}}};
@@ -579,6 +597,13 @@ std::span<const Request> requests() {
          return document::ball_bar(request);
        },
        nullptr, drawn_ball_bar},
+      {"positioning",
+       to_translate("readings of a laser -> ISO 230-2; compensation file of LinuxCNC"),
+       kPositioningExample,
+       [](const json& request, const Context&) -> ordered_json {
+         return document::positioning(request);
+       },
+       report::positioning_text, drawn_positioning},
       {"samba",
        to_translate("probing strategy -> identifiability; readings -> parameters"),
        kSambaExample,

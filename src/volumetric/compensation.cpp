@@ -91,9 +91,9 @@ struct Stop {
   const NcMove* move;
   const Tool* tool = nullptr;
   Vec3 from{}, target{};
-  Vec3 asked{};                    // signs of the source's motion
   Vec3 sign{};                     // signs of the corrected motion
-  Vec3 error{};                    // at the target, uncorrected, with the source's signs
+  Vec3 error{};                    // at the target, uncorrected
+  Vec3 error_sign{};               // the signs that it has, at first the source's
   bool first = true, last = true;  // whether it is the first, the last stop of its move
   bool stays = false;              // whether an axis stays, see Run::approach
   bool takes_up = false;           // whether it takes up backlash before a feed move
@@ -143,10 +143,11 @@ class Walk {
         at_from = field_.error(next, from, sign, from);
       }
       const Vec3 before = std::exchange(sign, signs(from, m.target_mm, sign, o_.at_rest));
-      Stop s{.move = &m, .tool = tool_, .asked = sign, .sign = sign};
+      Stop s{.move = &m, .tool = tool_, .sign = sign, .error_sign = sign};
       const Vec3 at_end = field_.error(*tool_, m.target_mm, sign, m.target_mm);
       ends_.clear();
-      if (!m.rapid && o_.method == Method::full_field) {
+      if (!m.rapid && o_.method == Method::full_field &&
+          norm(m.target_mm - from) > unsplit_mm_) {
         if (sign != before) at_from = field_.error(*tool_, from, sign, from);
         split({from, at_from}, {m.target_mm, at_end}, sign, 0);
       }
@@ -207,6 +208,17 @@ class Walk {
   double unsplit_mm_ = 0;
   std::vector<End> ends_;  // of the current move
 };
+
+/// Notes the error at a stop's target with the signs of its motion.
+void find_error(const Field& field, Stop& s) {
+  s.error = field.error(*s.tool, s.target, s.sign, s.target);
+  s.error_sign = s.sign;
+}
+
+/// The error at a stop's target, uncorrected.
+Vec3 error_at_target(const Field& field, const Stop& s, const Vec3& sign) {
+  return sign == s.error_sign ? s.error : field.error(*s.tool, s.target, sign, s.target);
+}
 
 /// The command by (1), from the error at the target.
 void correct(const Field& field, int passes, const Vec3& error, Stop& s) {
@@ -335,8 +347,8 @@ class Run {
   double play_mm(const Stop& s, const Vec3& sign, std::size_t k, double from) const {
     Vec3 before = sign;
     before[k] = from;
-    const Vec3 turn = field_.error(*s.tool, s.target, before, s.target) -
-                      field_.error(*s.tool, s.target, sign, s.target);
+    const Vec3 turn =
+        error_at_target(field_, s, before) - error_at_target(field_, s, sign);
     return std::max(turn[k] * sign[k], 0.0);
   }
 
@@ -349,7 +361,7 @@ class Run {
   /// that in `start` go to the target of `s`, or farther if the way back to `start` would
   /// not take up their backlash; the others go to their command of `start`.
   Stop gone_beyond(const Stop& start, Stop s) const {
-    s.error = field_.error(*s.tool, s.target, s.sign, s.target);
+    find_error(field_, s);
     correct(field_, o_.passes, s.error, s);
     for (std::size_t k = 0; k < 3; ++k) {
       if (s.sign[k] == start.sign[k]) {
@@ -386,9 +398,9 @@ class Run {
     s.sign = signs(s.from, s.target, sign_, o_.at_rest);
     for (int round = 0; round < kRounds; ++round) {
       start.sign = s.sign;
-      start.error = field_.error(*s.tool, s.from, s.sign, s.from);
+      find_error(field_, start);
       correct(field_, o_.passes, start.error, start);
-      correct(field_, o_.passes, field_.error(*s.tool, s.target, s.sign, s.target), s);
+      correct(field_, o_.passes, error_at_target(field_, s, s.sign), s);
       if (!follows_) return;
       start.command = writer_.written(*s.move, start.command);
       s.command = writer_.written(*s.move, s.command);
@@ -403,9 +415,7 @@ class Run {
     std::array<int, 3> turned{};
     for (bool settled = false; !settled;) {
       s.sign = sign;
-      const bool known = sign == s.asked;
-      correct(field_, o_.passes,
-              known ? s.error : field_.error(*s.tool, s.target, sign, s.target), s);
+      correct(field_, o_.passes, error_at_target(field_, s, sign), s);
       if (!follows_) return;
       for (std::size_t k = 0; k < 3; ++k)
         if (turned[k] == kStays) s.command[k] = q_[k] + s.tool->point[k];
@@ -454,8 +464,9 @@ Compensated compensate(const NcProgram& program, const Machine& machine,
   const Field field(machine, setup);
   const bool full = options.method == Method::full_field;
   Compensated out;
-  out.lines.reserve(program.moves.size());
-  out.distances_mm.reserve(program.moves.size());
+  // Feeds that reverse become two moves; memory that is not used is not touched.
+  out.lines.reserve(2 * program.moves.size());
+  out.distances_mm.reserve(2 * program.moves.size());
   NcWriter writer(setup, options.decimals);
   Run run(field, writer, options, program.start_mm);
   Distances before, after;

@@ -44,8 +44,8 @@ Eigen::Map<const Errors> array(const std::array<double, kDirections>& v) {
 Vec3 values(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 /// Below 0.01 rad by series, whose neglected terms a^7/5040 and a^8/40320 are below
-/// rounding.
-Turn turn(double a) {
+/// rounding.  In line, as are rotations, because a pose is made of some ten of each.
+[[gnu::always_inline]] inline Turn turn(double a) {
   const double x = a * a;
   if (x < 1e-4)
     return {1 - x * (1.0 / 2 - x * (1.0 / 24 - x * (1.0 / 720))),
@@ -56,7 +56,7 @@ Turn turn(double a) {
 Turn back(const Turn& t) { return {t.cos, -t.sin}; }
 
 /// Rotates a vector about one of the axes.
-void rotate(Vector3d& v, std::size_t axis, const Turn& t) {
+[[gnu::always_inline]] inline void rotate(Vector3d& v, std::size_t axis, const Turn& t) {
   const auto j = static_cast<Eigen::Index>((axis + 1) % 3),
              k = static_cast<Eigen::Index>((axis + 2) % 3);
   const double y = v[j];
@@ -75,12 +75,12 @@ Matrix3d matrix(std::size_t axis, const Turn& t) {
 }
 
 /// Rz(C) Ry(B) Rx(A) v, by the three rotations about x, y, z.
-void tilt(Vector3d& v, const std::array<Turn, 3>& t) {
+[[gnu::always_inline]] inline void tilt(Vector3d& v, const std::array<Turn, 3>& t) {
   rotate(v, 0, t[0]);
   rotate(v, 1, t[1]);
   rotate(v, 2, t[2]);
 }
-void untilt(Vector3d& v, const std::array<Turn, 3>& t) {
+[[gnu::always_inline]] inline void untilt(Vector3d& v, const std::array<Turn, 3>& t) {
   rotate(v, 2, back(t[2]));
   rotate(v, 1, back(t[1]));
   rotate(v, 0, back(t[0]));

@@ -372,7 +372,8 @@ TEST_F(CommandLine, ALongSweepIsToldOnATerminal) {
 TEST_F(CommandLine, DrawsMachines) {
   for (const auto& [name, file] :
        {std::pair{"geometry", "errors.svg"}, std::pair{"ballbar", "ballbar.svg"},
-        std::pair{"compensate", "residual.svg"}}) {
+        std::pair{"compensate", "residual.svg"},
+        std::pair{"positioning", "positioning.svg"}}) {
     SCOPED_TRACE(name);
     put(folder_ / "request.json", row(name).example);
     const std::string command = std::string("turnwright ") + name + " request.json";

@@ -38,5 +38,16 @@ TEST_F(MeasuredResults, TellTheFileThatIsBroken) {
   EXPECT_EQ(shell("turnwright learn").code, 2);
 }
 
+// A byte that is no UTF-8 is a character of Latin-1, and the program answers.
+TEST_F(MeasuredResults, MayBeTablesInLatin1) {
+  put(folder_ / "pins.csv", "part,d\n1,25.01\n2,25.02\n3,\377\n");
+  put(folder_ / "r.json",
+      R"({"characteristics": [{"id": "d", "nominal_mm": 25, "upper_mm": 0.02,
+          "lower_mm": 0}]})");
+  const auto run = shell("turnwright learn r.json --csv pins.csv");
+  EXPECT_EQ(run.code, 2);
+  EXPECT_NE(run.err.find("/csv#line 4/d: got "), std::string::npos) << run.err;
+}
+
 }  // namespace
 }  // namespace turnwright::app

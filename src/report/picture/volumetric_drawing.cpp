@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <vector>
 
 #include "base/say.hpp"
@@ -221,17 +222,6 @@ std::string compensation_drawing(const Compensated& compensated) {
 
 namespace {
 
-/// machine.hpp (1).
-double value(const ErrorFunction& e, double q, double Q, double sign) {
-  const double t = q / Q;
-  double sum = e.c[0] + t * (e.c[1] + t * (e.c[2] + t * e.c[3])) + sign * e.b;
-  for (std::size_t h = 0; h < e.f.size(); ++h) {
-    const double hq = static_cast<double>(h + 1) * q;
-    sum += e.f[h].a * std::cos(hq) + e.f[h].d * std::sin(hq);
-  }
-  return sum;
-}
-
 bool zero(const ErrorFunction& e) {
   const auto none = [](double c) { return c == 0; };
   return std::ranges::all_of(e.c, none) && e.b == 0 &&
@@ -260,7 +250,7 @@ bool errors_of(Svg& svg, const Axis& axis, std::size_t first, double left, doubl
       Curve c{k, {}};
       for (int i = -kSteps; i <= kSteps; ++i) {
         const double share = static_cast<double>(i) / kSteps;
-        const double v = unit * value(e, share * axis.Q, axis.Q, sign);
+        const double v = unit * error_at(e, share * axis.Q, axis.Q, sign);
         low = std::min(low, v);
         high = std::max(high, v);
         c.points.push_back({share * travel, v});
@@ -291,6 +281,92 @@ bool errors_of(Svg& svg, const Axis& axis, std::size_t first, double left, doubl
 }
 
 }  // namespace
+
+namespace {
+
+/// A mean by position, with twice a standard deviation to either side.
+struct Course {
+  std::optional<double> PositionValues::*mean, PositionValues::*s;
+  const char *line, *words;
+  std::string name;
+};
+
+std::vector<Course> courses() {
+  return {{&PositionValues::mean_plus_mm, &PositionValues::s_plus_mm, kCcw, "accent",
+           tr("mean in +")},
+          {&PositionValues::mean_minus_mm, &PositionValues::s_minus_mm, kCw, "path",
+           tr("mean in -")}};
+}
+
+/// Points of a course at the positions that have it, `coverage` standard deviations away.
+std::vector<Point> points_of(const Course& course, const Iso230_2& values,
+                             double coverage) {
+  std::vector<Point> out;
+  for (const PositionValues& p : values.positions) {
+    const auto &mean = p.*course.mean, &s = p.*course.s;
+    if (mean && (coverage == 0 || s))
+      out.push_back({p.q_mm, units::um_from_mm(*mean + coverage * s.value_or(0))});
+  }
+  return out;
+}
+
+constexpr double kBand = 2;  // standard deviations
+
+/// A scale with some room beyond all points; of one value 1 to either side.
+Scale scale_of(const std::vector<double>& values, double from, double to, double room) {
+  const auto [low, high] = std::ranges::minmax(values);
+  const double more = low == high ? 1 : room * (high - low);
+  return {low - more, high + more, from, to};
+}
+
+/// How far an extent reaches, as a dimension beside the frame.
+void dimension(Svg& svg, const Scale& y, double x, const char* name,
+               const std::optional<Extent>& extent) {
+  if (!extent) return;
+  const double low = y.place(units::um_from_mm(extent->low_mm)),
+               high = y.place(units::um_from_mm(extent->high_mm));
+  svg.line("", {x, low}, {x, high});
+  for (const double end : {low, high}) svg.line("", {x - 1.5, end}, {x + 1.5, end});
+  svg.text({x, high - 4.4}, Anchor::middle, name);
+  svg.text({x, high - 1.2}, Anchor::middle, um(extent->width_mm()));
+}
+
+}  // namespace
+
+std::string positioning_drawing(char axis, const Iso230_2& values) {
+  constexpr double kTop = 34, kBottom = 108;
+  const std::string name = say("Positioning of axis {}, ISO 230-2", axis);
+  Svg svg;
+  svg.text({kMargin, 11}, Anchor::start, name, "title");
+  std::vector<double> places, um_all{0};
+  for (const Course& course : courses())
+    for (const double coverage : {-kBand, 0.0, kBand})
+      for (const Point& p : points_of(course, values, coverage)) {
+        places.push_back(p.x);
+        um_all.push_back(p.y);
+      }
+  if (places.empty()) return svg.page(kWidth, 20, name);
+  const Scale x = scale_of(places, 24, 142, 0.03),
+              y = scale_of(um_all, kBottom, kTop, 0.06);
+  frame(svg, x, y, std::string(1, axis) + ", mm", tr("deviation, um"), 6, 6);
+  double at = kMargin;
+  for (const Course& course : courses()) {
+    if (points_of(course, values, 0).empty()) continue;
+    key(svg, {at, 18}, course.line, course.words, course.name);
+    at += 44;
+    for (const double coverage : {-kBand, 0.0, kBand}) {
+      auto line = points_of(course, values, coverage);
+      if (line.empty()) continue;
+      for (Point& p : line) p = {x.place(p.x), y.place(p.y)};
+      svg.polyline(coverage == 0 ? course.line : "thin", line);
+    }
+  }
+  key(svg, {at, 18}, "thin", "", tr("two standard deviations off"));
+  dimension(svg, y, 151, "A", values.A);
+  dimension(svg, y, 165, "E", values.E);
+  dimension(svg, y, 179, "M", values.M);
+  return svg.page(kWidth, kBottom + 12, name);
+}
 
 std::string error_map(const Machine& machine) {
   Svg svg;

@@ -5,6 +5,7 @@
 #include "turnwright/volumetric/ball_bar.hpp"
 #include "turnwright/volumetric/compensation.hpp"
 #include "turnwright/volumetric/machine.hpp"
+#include "turnwright/volumetric/positioning.hpp"
 
 /// Pictures of a machine's geometry (SVG 1.1, readable alone, 190 mm wide).  Equal data
 /// give equal bytes.
@@ -25,6 +26,11 @@ std::string ball_bar_drawing(const volumetric::Trace& trace);
 /// program, on a logarithmic scale.  If there are more moves than columns the largest
 /// value of each column is drawn.  Values below 0.1 nm are drawn on the lower edge.
 std::string compensation_drawing(const volumetric::Compensated& compensated);
+
+/// Deviations of an axis by position, as ISO 230-2 draws them: the means in either direction,
+/// thin beside them two standard deviations, and to the right between which deviations A, E and
+/// M lie.  What the values lack is left out.
+std::string positioning_drawing(char axis, const volumetric::Iso230_2& values);
 
 /// The errors of each axis over -Q to Q (machine.hpp (1)), linear and angular errors
 /// separately, and by direction of motion where they differ.  There is no band, because

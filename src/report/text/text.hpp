@@ -56,6 +56,11 @@ std::string overhang_text(const nlohmann::ordered_json& overhang_result);
 /// which frequency, speeds without it, the lines of the sound.
 std::string listen_text(const nlohmann::ordered_json& listen_result);
 
+/// The result document of `positioning` (schemas/positioning.result.json): accuracy,
+/// repeatability, systematic deviation and reversal of the axis, the values of each position,
+/// what the test lacks.
+std::string positioning_text(const nlohmann::ordered_json& positioning_result);
+
 /// The result document of `review` (schemas/review.result.json): the cuts of each program
 /// with the limits that they do not keep, what is not known, sizes, and what a plan saves.
 std::string review_text(const nlohmann::ordered_json& review_result);

@@ -130,5 +130,43 @@ TEST(ErrorMap, ShowsEachErrorOnce) {
   EXPECT_TRUE(has(error_map({"wXft", {}, {{'X', {}, 100}}}), "none along any axis"));
 }
 
+// Means 0 and 8 um in +, 4 um below in -, 5 approaches with a standard deviation of 1 um: the
+// band reaches from -6 to 10 um.
+TEST(PositioningDrawing, DrawsMeansBandsAndWhatLiesBetween) {
+  const auto about = [](double um) {
+    const double mm = um / 1e3, step = 1e-3 / std::sqrt(2.5);
+    return std::vector<double>{mm - 2 * step, mm - step, mm, mm + step, mm + 2 * step};
+  };
+  const std::vector<Target> all{{0, about(0), about(-4)}, {100, about(8), about(4)}};
+  const std::string svg = positioning_drawing('Z', iso230_2(all));
+  const auto plus = polylines(svg, "made"), minus = polylines(svg, "path"),
+             thin = polylines(svg, "thin");
+  ASSERT_EQ(plus.size(), 1u);
+  ASSERT_EQ(minus.size(), 1u);
+  ASSERT_EQ(thin.size(), 4u);
+  const double um = (plus[0][0].y - plus[0][1].y) / 8;
+  EXPECT_GT(um, 0);
+  EXPECT_GT(plus[0][1].x, plus[0][0].x);
+  EXPECT_NEAR(minus[0][0].y - plus[0][0].y, 4 * um, 2e-3);
+  EXPECT_NEAR(thin[0][0].y - plus[0][0].y, 2 * um, 2e-3);
+  EXPECT_NEAR(plus[0][1].y - thin[1][1].y, 2 * um, 2e-3);
+  for (const char* told :
+       {"Positioning of axis Z, ISO 230-2", ">A<", ">16<", ">E<", ">12<", ">M<", ">8<",
+        ">mean in +<", ">mean in -<", ">deviation, um<"})
+    EXPECT_TRUE(has(svg, told)) << told;
+}
+
+TEST(PositioningDrawing, LeavesOutWhatTheValuesLack) {
+  const std::string svg = positioning_drawing(
+      'X', iso230_2(std::vector<Target>{{0, {1e-3}, {}}, {100, {2e-3}, {}}}));
+  EXPECT_EQ(polylines(svg, "made").size(), 1u);
+  EXPECT_TRUE(polylines(svg, "path").empty());
+  EXPECT_TRUE(polylines(svg, "thin").empty());
+  for (const char* none : {">A<", ">E<", ">M<", ">mean in -<"})
+    EXPECT_FALSE(has(svg, none)) << none;
+  EXPECT_NO_THROW(positioning_drawing('X', iso230_2(std::vector<Target>{{5, {0}, {0}}})));
+  EXPECT_NO_THROW(positioning_drawing('X', {}));
+}
+
 }  // namespace
 }  // namespace turnwright::report::volumetric_drawing_test
