@@ -35,10 +35,16 @@ bool is_universal(std::string_view text) {
   return behind != text.npos && text[behind] == '\n';
 }
 
+/// Whether bytes stand among its lines.
+bool is_binary_universal(std::string_view bytes) {
+  return is_universal(bytes) && bytes.find("\n    58b ") != bytes.npos;
+}
+
 }  // namespace
 
 nlohmann::json measured_file(const std::string& bytes) {
-  std::string text = is_utf8(bytes) ? bytes : from_latin_1(bytes);
+  std::string text =
+      is_utf8(bytes) && !is_binary_universal(bytes) ? bytes : from_latin_1(bytes);
   if (is_universal(text)) return {{"uff", {{"text", std::move(text)}}}};
   return {{"csv", std::move(text)}};
 }
