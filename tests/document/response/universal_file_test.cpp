@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -328,6 +329,25 @@ TEST(MeasuredFile, IsRecognisedByItsFirstLine) {
   EXPECT_TRUE(measured_file("-1").contains("csv"));
   EXPECT_EQ(measured_file("f,\xB5m/N\n")["csv"], "f,\u00b5m/N\n");
   EXPECT_EQ(measured_file("f,\u00b5m/N\n")["csv"], "f,\u00b5m/N\n");
+}
+
+// As a public script writes them for CutPro, Matlab2CutPro.m of the Manufacturing Automation
+// Laboratory's students: values with tabs behind them, labels behind the first.
+TEST(MeasuredFile, AFrfOfCutProGivesTheModesBack) {
+  std::string file;
+  for (int i = 0; i <= 200; ++i) {
+    const double f = 400 + 4 * i;
+    const Complex y = response_of(kTwo, f) / 1e3;  // m/N
+    char line[100];
+    std::snprintf(line, sizeof line, "%14.6e\t%14.12e\t%14.12e\t", f, y.real(), y.imag());
+    file +=
+        std::string(line) + (i == 0 ? "Freq\tHz\tReal\tm/N\tImag\tReal\t\r\n" : "\r\n");
+  }
+  const json r = told(measured_file(file));
+  expect_modes(r, kTwo, 1e-6);
+  EXPECT_EQ(r["lines"], 201);
+  EXPECT_EQ(r["unit"], "m/N");
+  EXPECT_EQ(measured_file("1\t2\t3\tno labels\n")["csv"], "1\t2\t3\tno labels\n");
 }
 
 }  // namespace
