@@ -41,8 +41,7 @@ struct Heard {
 
 /// The spectrum is the mean of those of blocks of 32 revolutions (at least 0.25 s), weighted
 /// by Hann's window, half over each other.  Noise is the median of the lines about a line,
-/// over ln 2, harmonics left out; above 0.45 of the rate it is that at 0.45, because filters
-/// against aliases cut behind it.  A line stands out if it is 15 dB above the noise: white
+/// over ln 2, harmonics left out.  A line stands out if it is 15 dB above the noise: white
 /// noise does so in one line of e^31.  Lines are looked for up to half the rate less four
 /// lines of resolution; nearer, a line and its mirror image are one.
 ///

@@ -116,8 +116,6 @@ class Listener {
     constexpr double kMirror = 4;  // lines of resolution, both main lobes
     out_.to_Hz = std::min(o.to_Hz.value_or(sound.rate_Hz),
                           sound.rate_Hz / 2 - kMirror * out_.resolution_Hz);
-    constexpr double kFlat = 0.45;  // of the rate: filters against aliases cut behind it
-    flat_to_Hz_ = kFlat * sound.rate_Hz;
   }
 
   Heard heard() {
@@ -147,19 +145,16 @@ class Listener {
     return order(f_Hz) >= 1 && std::abs(f_Hz - order(f_Hz) * turn_Hz_) <= beside_Hz(f_Hz);
   }
 
-  /// The noise about frequencies a tenth of an octave apart, up to where filters begin.
+  /// The noise about frequencies a tenth of an octave apart.
   void find_noise(bool without_harmonics) {
     constexpr double kWidth = 1.2, kNext = 1.07;
     constexpr std::size_t kLines = 40;  // at least, for a median
     noise_.clear();
-    const double end = out_.from_Hz * kWidth < flat_to_Hz_
-                           ? std::min(out_.to_Hz, flat_to_Hz_)
-                           : out_.to_Hz;
-    for (double f = out_.from_Hz; f < end * kNext; f *= kNext) {
+    for (double f = out_.from_Hz; f < out_.to_Hz * kNext; f *= kNext) {
       std::vector<double> about;
       for (double wide = kWidth; about.size() < kLines && wide < 64; wide *= wide) {
         about.clear();
-        const double to = std::min(f * wide, end);
+        const double to = std::min(f * wide, out_.to_Hz);
         for (double g = std::max(f / wide, out_.from_Hz); g < to; g += out_.resolution_Hz)
           if (!without_harmonics || !on_harmonic(g))
             about.push_back(spectrum_.power(spectrum_.line(g)));
@@ -232,7 +227,7 @@ class Listener {
   }
 
   SoundSpectrum spectrum_;
-  double turn_Hz_, flat_to_Hz_ = 0;
+  double turn_Hz_;
   std::vector<double> noise_;
   double noise_step_ = 1;
   Heard out_;

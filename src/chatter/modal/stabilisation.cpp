@@ -40,26 +40,15 @@ class UnitCircle {
   double from_, T_;
 };
 
-/// s of a line.
-double size_of_error(const FrequencyResponse& r, const ModalFit& fit, double highest,
-                     std::size_t line) {
-  if (!r.error.empty()) return r.error[line];
-  if (!fit.error_floor) return 1;
-  return std::hypot(std::abs(r.value[line]) / highest, *fit.error_floor);
-}
-
 /// The normal equations of the highest order.
 struct NormalBlocks {
   MatrixXcd PP, PQ, QQ;
-  NormalBlocks(const FrequencyResponse& r, const ModalFit& fit, const UnitCircle& circle,
-               int order) {
-    double highest = 0;
-    for (const Complex& y : r.value) highest = std::max(highest, std::abs(y));
+  NormalBlocks(const FrequencyResponse& r, const UnitCircle& circle, int order) {
     MatrixXcd P(static_cast<Eigen::Index>(r.value.size()), order + 1), Q = P;
     for (Eigen::Index i = 0; i < P.rows(); ++i) {
       const auto line = static_cast<std::size_t>(i);
       const Complex z = circle.z(r.w_rad_s[line]);
-      P(i, 0) = 1 / size_of_error(r, fit, highest, line);
+      P(i, 0) = r.error.empty() ? 1 : 1 / r.error[line];
       for (Eigen::Index j = 0; j < order; ++j) P(i, j + 1) = P(i, j) * z;
       Q.row(i) = -r.value[line] * P.row(i);
     }
@@ -250,7 +239,7 @@ std::vector<UnfittedMode> unfitted(const ModalFit& fit,
 Stabilisation stabilisation(const FrequencyResponse& response, const ModalFit& fit) {
   const int most = std::min(kHighestOrder, static_cast<int>(response.w_rad_s.size() / 3));
   const UnitCircle circle(response);
-  const NormalBlocks all(response, fit, circle, most);
+  const NormalBlocks all(response, circle, most);
   Stabilisation out;
   for (int n = 1; n <= most; ++n) {
     leave_if_asked();

@@ -15,6 +15,7 @@
 
 #include "document/response/measured_file.hpp"
 #include "responses.hpp"
+#include "turnwright/base/errors.hpp"
 
 namespace turnwright::document::universal_file_test {
 namespace {
@@ -321,6 +322,30 @@ TEST(UniversalFile, DamagedFilesAreTakenOrRefusedAndNothingElse) {
   }
   EXPECT_GT(refusals, 200);
   EXPECT_LT(refusals, 400);
+}
+
+TEST(UniversalFile, DamagedBytesAreTakenOrRefusedAndNothingElse) {
+  const std::string good = bytes_of(source_path("tests/data/uff/binary-58b.uff"));
+  std::mt19937 random(4);
+  const auto below = [&](std::size_t n) { return random() % n; };
+  int refusals = 0;
+  for (int i = 0; i < 300; ++i) {
+    std::string bytes = good;
+    const auto at = below(bytes.size());
+    if (below(3) == 0)
+      bytes.erase(at, 1 + below(30));
+    else if (below(2) == 0)
+      bytes.insert(at, bytes.substr(below(bytes.size()), below(30)));
+    else
+      bytes[at] = static_cast<char>(below(256));
+    try {
+      if (refused(measured_file(bytes)) != "") ++refusals;
+    } catch (const ModelRangeError&) {  // modes of damaged values
+      ++refusals;
+    }
+  }
+  EXPECT_GT(refusals, 50);
+  EXPECT_LT(refusals, 300);
 }
 
 TEST(MeasuredFile, IsRecognisedByItsFirstLine) {
