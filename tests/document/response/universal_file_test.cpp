@@ -356,8 +356,8 @@ TEST(MeasuredFile, IsRecognisedByItsFirstLine) {
   EXPECT_EQ(measured_file("f,\u00b5m/N\n")["csv"], "f,\u00b5m/N\n");
 }
 
-// As a public script writes them for CutPro, Matlab2CutPro.m of the Manufacturing Automation
-// Laboratory's students: values with tabs behind them, labels behind the first.
+// As a public script, Matlab2CutPro.m, writes them for CutPro: values with tabs behind them,
+// labels behind the first.
 TEST(MeasuredFile, AFrfOfCutProGivesTheModesBack) {
   std::string file;
   for (int i = 0; i <= 200; ++i) {
