@@ -64,6 +64,8 @@ struct Arguments {
   std::vector<fs::path> results;        ///< QIF files of measured parts
   std::vector<fs::path> responses;      ///< files of measured responses, for `frf`
   std::optional<fs::path> sound;        ///< of a cut, for `wav`
+  std::optional<double> speed_rpm;      ///< of that cut
+  std::optional<int> teeth;             ///< that made it
   std::optional<fs::path> readings;     ///< of a laser, for `readings`
   std::optional<fs::path> comp_file;    ///< of LinuxCNC, for `comp_file`
   std::optional<fs::path> written_comp_file;
@@ -333,11 +335,24 @@ void add_text(const std::optional<fs::path>& file, const ForeignFile& kind,
   if (group.is_object()) group[key] = std::move(text);  // otherwise refused later
 }
 
-nlohmann::json asked(const Arguments& arguments) {
-  if (arguments.file.empty() && !arguments.table && arguments.results.empty())
-    throw wrong_option("REQUEST", tr("nothing"),
-                       tr("a request document, --csv with a table, or --qif with files"),
-                       "missing");
+/// Puts the sound of a cut, its speed and teeth into the request.
+void add_sound(const Arguments& arguments, nlohmann::json& request) {
+  if (arguments.sound)
+    request["wav"] =
+        document::sound_base64(read_foreign_file(arguments.sound->string(), kSound));
+  if (arguments.speed_rpm) request["n_rpm"] = *arguments.speed_rpm;
+  if (arguments.teeth) request["teeth"] = *arguments.teeth;
+}
+
+nlohmann::json asked(const service::Request& row, const Arguments& arguments) {
+  const bool sound = is_of_sound(row);
+  if (arguments.file.empty() && !arguments.table && arguments.results.empty() &&
+      !(arguments.sound && arguments.speed_rpm))
+    throw wrong_option(
+        "REQUEST", tr("nothing"),
+        sound ? tr("a request document, or --wav with a sound and --speed")
+              : tr("a request document, --csv with a table, or --qif with files"),
+        "missing");
   auto request =
       arguments.file.empty() ? nlohmann::json::object() : read_request(arguments.file);
   if (!request.is_object()) return request;
@@ -355,9 +370,7 @@ nlohmann::json asked(const Arguments& arguments) {
   if (arguments.part) request["part"] = document::parse_file(*arguments.part);
   if (arguments.update) request["update"] = true;
   for (const auto& file : arguments.responses) add_response(file, request);
-  if (arguments.sound)
-    request["wav"] =
-        document::sound_base64(read_foreign_file(arguments.sound->string(), kSound));
+  add_sound(arguments, request);
   add_text(arguments.readings, kReadings, "readings", "csv", request);
   add_text(arguments.comp_file, kCompFile, "comp_file", "text", request);
   if (arguments.written_comp_file && !request.contains("write_comp_file"))
@@ -368,7 +381,7 @@ nlohmann::json asked(const Arguments& arguments) {
 Exit run_request(const service::Request& row, const Arguments& arguments) {
   require_places(arguments);
   const auto settings = nc_settings(arguments.nc);
-  auto request = asked(arguments);
+  auto request = asked(row, arguments);
   const bool part_alone = is_for_programs(row) && is_part(request);
   if (part_alone) request = {{"part", std::move(request)}};
   if (is_for_programs(row) && request.is_object()) request.update(arguments.nc);
@@ -452,7 +465,7 @@ void add_commands(CLI::App& app, Arguments& arguments, std::function<Exit()>& ch
                tr("part document, whose tolerances are the characteristics"));
       command->add_flag("--update", arguments.update,
                         tr("also update the factors of the models, and write documents"));
-    } else {
+    } else if (!is_of_sound(row)) {
       file->required();
     }
     if (is_of_chatter(row))
@@ -460,9 +473,14 @@ void add_commands(CLI::App& app, Arguments& arguments, std::function<Exit()>& ch
           *command, "--frf", arguments.responses,
           tr("measured response (CSV, universal file) of the next entry of frf; taps "
              "where that has the key taps"));
-    if (is_of_sound(row))
+    if (is_of_sound(row)) {
       add_path(*command, "--wav", arguments.sound,
                tr("sound of the cut, as wav of the request"));
+      add_number<double>(*command, "--speed", arguments.speed_rpm, Range<double>{1, 1e6},
+                         tr("spindle speed in 1/min, in place of the request's n_rpm"));
+      add_number<int>(*command, "--teeth", arguments.teeth, Range<int>{1, 100},
+                      tr("teeth of the cutter, in place of the request's; 1 in turning"));
+    }
     if (is_of_positioning(row)) {
       add_path(*command, "--csv", arguments.readings,
                tr("table of a laser's readings, as csv of the request's readings"));

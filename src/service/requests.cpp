@@ -14,6 +14,7 @@
 #include "report/picture/milled_drawing.hpp"
 #include "report/picture/path_drawing.hpp"
 #include "report/picture/run_drawing.hpp"
+#include "report/picture/stabilisation_drawing.hpp"
 #include "report/picture/stability_chart.hpp"
 #include "report/picture/volumetric_drawing.hpp"
 #include "report/picture/window_drawing.hpp"
@@ -471,6 +472,11 @@ Drawn drawn_stability(const json& request, const Context& context) {
             {}};
   if (auto svg = report::stability_chart(request, all.result); !svg.empty())
     all.drawings.push_back({"stability.svg", std::move(svg)});
+  if (all.result.contains("frf"))
+    for (const auto& response : all.result.at("frf"))
+      all.drawings.push_back(
+          {"stabilisation-" + response.at("axis").get<std::string>() + ".svg",
+           report::stabilisation_drawing(response)});
   return all;
 }
 

@@ -62,7 +62,8 @@ TEST_F(Options, NumbersAreDecimalAndWithinTheirRange) {
     refused(option.command + ' ' + option.name + " ''",
             "command line: " + option.name + ": got \"\", expected a");
   }
-  EXPECT_EQ(numbers, 13);  // seven of serve, three of batch, one of nc, two of review
+  // seven of serve, three of batch, one of nc, two of review, two of listen
+  EXPECT_EQ(numbers, 15);
   for (const std::string zero :
        {"serve --deadline 0", "serve --connections 0", "serve --batch-threads 0",
         "batch lines.jsonl -o r --jobs 0", "batch lines.jsonl -o r --chunk 0"})

@@ -69,6 +69,57 @@ TEST(Sound, ChatterIsHeardAtItsFrequency) {
   }
 }
 
+/// Without what lies above 0.45 of the rate, as behind a filter against aliases: the mean
+/// square falls by 60 dB up to half the rate.
+Sound filtered(const Sound& sound) {
+  constexpr int kHalf = 200;
+  Sound out{sound.rate_Hz, std::vector<double>(sound.value.size())};
+  std::vector<double> taps;
+  for (int k = -kHalf; k <= kHalf; ++k) {
+    const double x = 2 * M_PI * 0.46 * k,
+                 window = std::pow(std::cos(M_PI * k / (2.0 * kHalf + 2)), 2);
+    taps.push_back((k == 0 ? 2 * 0.46 : std::sin(x) / (M_PI * k)) * window);
+  }
+  for (std::size_t i = 0; i < out.value.size(); ++i)
+    for (std::size_t k = 0; k < taps.size(); ++k)
+      if (i + k >= kHalf && i + k - kHalf < sound.value.size())
+        out.value[i] += taps[k] * sound.value[i + k - kHalf];
+  return out;
+}
+
+// Up to four lines of resolution below half the rate.
+TEST(Sound, ChatterIsHeardUpToHalfTheRate) {
+  for (const double share : {0.4313, 0.4513, 0.4688, 0.4813, 0.4938, 0.4963})
+    for (const bool behind_filter : {false, true}) {
+      if (behind_filter && share > 0.46) continue;
+      SCOPED_TRACE(share);
+      Cut cut;
+      cut.rate_Hz = 8000;
+      cut.seconds = 2;
+      cut.chatter_Hz = share * cut.rate_Hz;
+      cut.chatter = 0.5;
+      const Sound sound = sound_of(cut, 9);
+      const auto heard = listen(behind_filter ? filtered(sound) : sound,
+                                {.n_rpm = 6000, .teeth = 4, .to_Hz = {}});
+      ASSERT_TRUE(heard.chatter.has_value());
+      EXPECT_NEAR(heard.chatter->frequency_Hz / cut.chatter_Hz, 1, 1e-3);
+      EXPECT_NEAR(heard.chatter->amplitude, 0.5, 0.1);
+      EXPECT_NEAR(heard.to_Hz, 4000 - 4 * heard.resolution_Hz, 1e-9);
+    }
+}
+
+TEST(Sound, NoiseBehindAFilterIsNoChatter) {
+  for (std::uint64_t seed = 0; seed < 30; ++seed) {
+    Sound noise{8000, {}};
+    for (std::uint64_t i = 0; i < 16000; ++i)
+      noise.value.push_back(normal_draw(uniform_draw(splitmix64(seed, 2 * i)),
+                                        uniform_draw(splitmix64(seed, 2 * i + 1))));
+    const auto heard = listen(filtered(noise), {.n_rpm = 6000, .teeth = 4, .to_Hz = {}});
+    EXPECT_FALSE(heard.chatter.has_value()) << seed;
+    EXPECT_TRUE(heard.others.empty()) << seed;
+  }
+}
+
 TEST(Sound, HarmonicsAloneAreNoChatter) {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     Cut cut;

@@ -15,7 +15,7 @@ struct ListenOptions {
   double n_rpm = 0;             ///< spindle speed, known to a hundredth
   int teeth = 1;                ///< in turning 1
   double from_Hz = 50;          ///< lower frequencies are not looked at
-  std::optional<double> to_Hz;  ///< nor higher ones; absent: 0.45 of the rate
+  std::optional<double> to_Hz;  ///< nor higher ones; absent: all that are told apart
 };
 
 /// A line of the spectrum.
@@ -42,7 +42,8 @@ struct Heard {
 /// The spectrum is the mean of those of blocks of 32 revolutions (at least 0.25 s), weighted
 /// by Hann's window, half over each other.  Noise is the median of the lines about a line,
 /// over ln 2, harmonics left out.  A line stands out if it is 15 dB above the noise: white
-/// noise does so in one line of e^31.
+/// noise does so in one line of e^31.  Lines are looked for up to half the rate less four
+/// lines of resolution; nearer, a line and its mirror image are one.
 ///
 /// All multiples of the spindle's frequency count as harmonics, not only those of the teeth,
 /// because teeth run out.  The speed is found from them, the low orders first.  What lies
@@ -55,7 +56,8 @@ struct Heard {
 ///
 /// Neglects: chatter that doubles the period (a flip) of an even number of teeth lies on
 /// harmonics of the spindle and is not heard; neither is chatter that happens to lie within
-/// those ranges.  A fan or a pump may be taken for chatter: listen to an idle cut, too.
+/// those ranges.  What sounds above half the rate and is not filtered out before it is sampled
+/// is heard as far below it.  A fan or a pump may be taken for chatter: listen to an idle cut, too.
 /// Source: derived here, checked in sound_test on simulated sounds.
 /// @throws ModelRangeError if the sound is shorter than 16 revolutions or 0.05 s, or if 16
 ///   revolutions have more than 2^20 samples, the most of a block.

@@ -113,8 +113,9 @@ class Listener {
         turn_Hz_(o.n_rpm / 60) {
     out_.resolution_Hz = spectrum_.resolution_Hz();
     out_.from_Hz = std::max(o.from_Hz, 4 * out_.resolution_Hz);
-    constexpr double kOfRate = 0.45;
-    out_.to_Hz = std::min(o.to_Hz.value_or(sound.rate_Hz), kOfRate * sound.rate_Hz);
+    constexpr double kMirror = 4;  // lines of resolution, both main lobes
+    out_.to_Hz = std::min(o.to_Hz.value_or(sound.rate_Hz),
+                          sound.rate_Hz / 2 - kMirror * out_.resolution_Hz);
   }
 
   Heard heard() {

@@ -5,7 +5,9 @@
 #include <complex>
 #include <iomanip>
 #include <locale>
+#include <span>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <variant>
@@ -131,6 +133,11 @@ struct Fitted {
   bool conjugate = false;
 };
 
+FrequencyResponse conjugate_of(FrequencyResponse r) {
+  for (auto& y : r.value) y = std::conj(y);
+  return r;
+}
+
 /// The modes of a response, or else of its conjugate, as the header says.
 Fitted fitted(const FrequencyResponse& r, std::optional<int> modes) {
   constexpr double kGood = 0.02, kFarLess = 0.25;  // of the squares, left
@@ -142,12 +149,9 @@ Fitted fitted(const FrequencyResponse& r, std::optional<int> modes) {
   const auto* no = std::get_if<NoFit>(&as_given);
   if (left(as_given) < kGood || (no && no->why == NoFit::Why::too_few_lines))
     return {std::move(as_given)};
-  FrequencyResponse conjugate = r, opposite = r;
-  for (std::size_t i = 0; i < r.value.size(); ++i) {
-    conjugate.value[i] = std::conj(r.value[i]);
-    opposite.value[i] = -r.value[i];
-  }
-  auto turned = chatter::modal_fit(conjugate, modes);
+  FrequencyResponse opposite = r;
+  for (auto& y : opposite.value) y = -y;
+  auto turned = chatter::modal_fit(conjugate_of(r), modes);
   if (left(turned) < kFarLess * left(as_given) &&
       left(turned) < kFarLess * left(chatter::modal_fit(opposite, modes)))
     return {std::move(turned), true};
@@ -180,6 +184,57 @@ std::optional<ordered_json> described_coherence(const Lines& lines) {
   return ordered_json{{"mean", sum / static_cast<double>(lines.size())},
                       {"least", *least->coherence},
                       {"at_Hz", least->frequency_Hz}};
+}
+
+const char* name_of(chatter::DiagramPole::Stable stable) {
+  switch (stable) {
+    case chatter::DiagramPole::Stable::no:
+      return "no";
+    case chatter::DiagramPole::Stable::frequency:
+      return "frequency";
+    case chatter::DiagramPole::Stable::damping:
+      return "damping";
+    case chatter::DiagramPole::Stable::all:
+      return "all";
+  }
+  throw std::domain_error("frf: unknown mark of a pole");
+}
+
+/// The magnitude of the response, of many lines the highest ones.
+ordered_json curve_of(const Lines& lines) {
+  constexpr std::size_t kMostPoints = 400;
+  const std::size_t each = (lines.size() + kMostPoints - 1) / kMostPoints;
+  ordered_json f = ordered_json::array(), magnitude = ordered_json::array();
+  for (std::size_t i = 0; i < lines.size(); i += each) {
+    const auto highest = std::ranges::max_element(
+        std::span(lines).subspan(i, std::min(each, lines.size() - i)), {},
+        [](const MeasuredLine& line) { return std::abs(line.value); });
+    f.push_back(highest->frequency_Hz);
+    magnitude.push_back(std::abs(highest->value));
+  }
+  return {{"frequency_Hz", std::move(f)}, {"magnitude", std::move(magnitude)}};
+}
+
+ordered_json described_diagram(const MeasuredAxis& measured) {
+  const chatter::Stabilisation& diagram = measured.stabilisation;
+  ordered_json out{{"orders", diagram.orders.size()}};
+  out["poles"] = ordered_json::array();
+  for (const chatter::DiagramOrder& o : diagram.orders)
+    for (const chatter::DiagramPole& p : o.poles)
+      out["poles"].push_back({{"order", o.order},
+                              {"frequency_Hz", hertz(p.wn_rad_s)},
+                              {"damping_ratio", p.zeta},
+                              {"stable", name_of(p.stable)}});
+  out["unfitted"] = ordered_json::array();
+  for (const chatter::UnfittedMode& m : diagram.unfitted)
+    out["unfitted"].push_back({{"frequency_Hz", hertz(m.wn_rad_s)},
+                               {"damping_ratio", m.zeta},
+                               {"stiffness_N_mm", m.k_N_mm},
+                               {"from_order", m.from_order},
+                               {"to_order", m.to_order},
+                               {"least_depth_with", m.depth_with}});
+  out["curve"] = curve_of(measured.response.lines);
+  return out;
 }
 
 /// The response in the one form in which it is given.
@@ -228,18 +283,27 @@ std::optional<MeasuredAxis> read_frequency_response(Reader r, AxisKey axis) {
   out.response = std::move(*measured);
   out.conjugate = found.conjugate;
   out.fit = std::get<ModalFit>(found.fit);
+  out.stabilisation = chatter::stabilisation(
+      found.conjugate ? conjugate_of(std::move(asked)) : asked, out.fit);
   return out;
 }
 
 ordered_json described(const MeasuredAxis& measured) {
   const ModalFit& fit = measured.fit;
   ordered_json modes = ordered_json::array();
-  for (const chatter::FittedMode& m : fit.modes) {
+  for (std::size_t i = 0; i < fit.modes.size(); ++i) {
+    const chatter::FittedMode& m = fit.modes[i];
+    const chatter::SettledMode& settled = measured.stabilisation.modes[i];
     ordered_json told;
     add(told, "frequency_Hz", hertz(m.wn_rad_s.value), hertz(m.wn_rad_s.u));
     add(told, "damping_ratio", m.zeta.value, m.zeta.u);
     add(told, "stiffness_N_mm", m.k_N_mm.value, m.k_N_mm.u);
     told["mass_kg"] = 1000 * m.k_N_mm.value / (m.wn_rad_s.value * m.wn_rad_s.value);
+    told["stable_from_order"] =
+        settled.from_order ? ordered_json(*settled.from_order) : ordered_json();
+    told["stable_orders"] = settled.orders;
+    told["least_depth_without"] =
+        settled.depth_without ? ordered_json(*settled.depth_without) : ordered_json();
     modes.push_back(std::move(told));
   }
   ordered_json out{{"axis", measured.axis == chatter::Axis::x ? "x" : "y"},
@@ -262,6 +326,7 @@ ordered_json described(const MeasuredAxis& measured) {
   out["relative_rest"] = fit.rms_left / fit.rms_measured;
   out["correlation"] = fit.correlation;
   out["error_floor"] = fit.error_floor ? ordered_json(*fit.error_floor) : ordered_json();
+  out["stabilisation"] = described_diagram(measured);
   if (const auto coherence = described_coherence(measured.response.lines))
     out["coherence"] = *coherence;
   out.update(measured.response.told);
@@ -301,6 +366,44 @@ void add_doubts_of_coherence(const MeasuredAxis& measured,
   }
 }
 
+/// What the least depth would be without a mode, or with one more.
+std::string depth_words(const std::optional<double>& factor) {
+  return factor ? say("{} times as large", three_digits(*factor)) : tr("without limit");
+}
+
+/// Of modes that never become stable, and of stable poles that are no modes.
+void add_doubts_of_diagram(const MeasuredAxis& measured, std::vector<std::string>& out) {
+  constexpr std::size_t kEnoughOrders = 20;
+  constexpr double kMatters = 0.1, kOfDepth = 0.02;  // of the highest peak, of the depth
+  const chatter::Stabilisation& diagram = measured.stabilisation;
+  const auto height = [](const chatter::FittedMode& m) {
+    return 1 / (2 * m.zeta.value * m.k_N_mm.value);
+  };
+  const auto& modes = measured.fit.modes;
+  const double highest = height(*std::ranges::max_element(modes, {}, height));
+  for (std::size_t i = 0; i < modes.size(); ++i) {
+    const chatter::SettledMode& settled = diagram.modes[i];
+    const double share = height(modes[i]) / highest;
+    const bool deep =
+        !settled.depth_without || std::abs(*settled.depth_without - 1) >= kOfDepth;
+    if (settled.from_order || diagram.orders.size() < kEnoughOrders ||
+        (share < kMatters && !deep))
+      continue;
+    out.push_back(say(
+        "{}: the mode at {} never becomes stable in models of rising order up to {}: "
+        "its peak is {} of the highest one's; if noise made it, the least depth along "
+        "this axis would be {}; more averages show which",
+        measured.pointer, short_Hz(modes[i].wn_rad_s.value), diagram.orders.size(),
+        three_digits(share), depth_words(settled.depth_without)));
+  }
+  for (const chatter::UnfittedMode& m : diagram.unfitted)
+    out.push_back(
+        say("{}: a pole at {} is stable in models of order {} to {}, but none of the "
+            "modes: with it the least depth along this axis would be {}",
+            measured.pointer, short_Hz(m.wn_rad_s), m.from_order, m.to_order,
+            depth_words(m.depth_with)));
+}
+
 std::vector<std::string> doubts(const MeasuredAxis& measured) {
   constexpr double kExplained = 0.9;
   const Bounds usual = within(100, 1e6, "N/mm");  // of tools, spindles and slender work
@@ -320,6 +423,7 @@ std::vector<std::string> doubts(const MeasuredAxis& measured) {
   for (const std::string& doubt : measured.response.doubts) out.push_back(doubt);
   add_doubts_of_coherence(measured, out);
   if (auto doubt = doubt_of_hidden(measured)) out.push_back(std::move(*doubt));
+  add_doubts_of_diagram(measured, out);
   const auto weakest = std::ranges::min_element(
       fit.modes, {}, [](const chatter::FittedMode& m) { return m.k_N_mm.value; });
   const double k = weakest->k_N_mm.value;

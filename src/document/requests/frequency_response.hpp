@@ -7,6 +7,7 @@
 #include "document/json/reader.hpp"
 #include "document/response/measured_response.hpp"
 #include "turnwright/chatter/frf.hpp"
+#include "turnwright/chatter/stabilisation.hpp"
 #include "turnwright/chatter/system.hpp"
 
 namespace turnwright::document {
@@ -21,6 +22,7 @@ struct MeasuredAxis {
   MeasuredResponse response;  ///< as read; without the lines left out
   bool conjugate = false;     ///< it was measured under a force e^(-i w t)
   chatter::ModalFit fit;
+  chatter::Stabilisation stabilisation;  ///< its diagram
 };
 
 enum class AxisKey { asked, none };
@@ -43,8 +45,10 @@ nlohmann::ordered_json described(const MeasuredAxis& measured);
 
 /// Warnings of a possibly wrong unit or table although there are modes: less than 0.9 of
 /// the squares explained, the most compliant mode outside 100 to 1e6 N/mm, noise that
-/// may hide a mode of a tenth of the highest peak, the other sign of phase, or a coherence
-/// below 0.8 at a mode.
+/// may hide a mode of a tenth of the highest peak, the other sign of phase, a coherence
+/// below 0.8 at a mode, a mode of a tenth of the highest peak or of 2 % of the least depth
+/// that never becomes stable in the diagram (of 20 orders at least), or a stable pole that
+/// no mode explains.
 std::vector<std::string> doubts(const MeasuredAxis& measured);
 
 }  // namespace turnwright::document

@@ -119,6 +119,7 @@ ordered_json listen(const json& request, const Catalogue& catalogue,
                   {"seconds", static_cast<double>(samples.size()) / q.wav.rate_Hz},
                   {"channels", q.wav.channels.size()},
                   {"bits", q.wav.bits}};
+  out["taken"] = {{"n_rpm", q.options.n_rpm}, {"teeth", q.options.teeth}};
   out["n_rpm"] = heard.n_rpm;
   out["resolution_Hz"] = heard.resolution_Hz;
   out["from_Hz"] = heard.from_Hz;

@@ -1,7 +1,9 @@
 #include "universal_file.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <utility>
@@ -15,8 +17,10 @@ namespace turnwright::document {
 namespace {
 
 constexpr const char* kUniversal =
-    to_translate("a universal file in ASCII, or the list of its lines");
-constexpr std::size_t kMostValues = 100'000, kHeader = 11;
+    to_translate("a universal file, or the list of its lines");
+constexpr const char* kBytes = to_translate(
+    "the file as one text, a character from U+0000 to U+00FF for each byte of it");
+constexpr std::size_t kMostBytes = 100'000'000, kMostValues = 100'000, kHeader = 11;
 constexpr double kUnread = std::numeric_limits<double>::quiet_NaN();
 
 /// The columns `from` to `from + count`, in characters, of a line in UTF-8.
@@ -69,6 +73,137 @@ std::vector<Field> of_widths(std::string_view line, std::span<const std::size_t>
   return out;
 }
 
+/// A line, or the bytes of a dataset 58b.
+struct FileLine {
+  std::size_t number = 0;
+  std::string_view text = {};
+  std::optional<std::string> bytes = {};
+};
+
+/// The line "58b" of a binary dataset: I6,A1,2I6,2I12.
+struct BinaryForm {
+  double byte_order = 0, number_format = 0, lines = 0, bytes = 0;
+  bool valid() const {
+    return (byte_order == 1 || byte_order == 2) && number_format == 2 &&
+           lines == kHeader && bytes > 0 && bytes <= kMostBytes;
+  }
+};
+
+bool is_binary(std::string_view line) {
+  const auto fields = fields_of(line);
+  return !fields.empty() && fields[0].text == "58b";
+}
+
+BinaryForm binary_form(std::string_view line) {
+  const auto fields = fields_of(line);
+  const auto field = [&](std::size_t i) {
+    return i < fields.size() ? csv_number(fields[i].text).value_or(0) : 0;
+  };
+  return {field(1), field(2), field(3), std::floor(field(4))};
+}
+
+/// Takes up to `count` bytes from a text in which they stand as characters U+0000 to U+00FF.
+std::string taken_bytes(std::string_view& text, std::size_t count) {
+  std::string out;
+  std::size_t at = 0;
+  while (out.size() < count && at < text.size()) {
+    const auto c = static_cast<unsigned char>(text[at]);
+    if (c < 0x80) {
+      out += static_cast<char>(c);
+      ++at;
+    } else if ((c == 0xC2 || c == 0xC3) && at + 1 < text.size()) {
+      out += static_cast<char>((c & 0x03) << 6 | (text[at + 1] & 0x3F));
+      at += 2;
+    } else {
+      break;
+    }
+  }
+  text.remove_prefix(at);
+  return out;
+}
+
+std::string_view taken_line(std::string_view& text) {
+  const auto end = text.find('\n');
+  auto line = text.substr(0, end);
+  text.remove_prefix(end == text.npos ? text.size() : end + 1);
+  if (line.ends_with('\r')) line.remove_suffix(1);
+  return line;
+}
+
+/// Whether the dataset ends here, perhaps behind the end of a line.
+bool ends(std::string_view text) {
+  for (int lines = 0; lines < 2; ++lines) {
+    const auto line = taken_line(text);
+    if (!trimmed(line).empty()) return is_delimiter(line);
+  }
+  return false;
+}
+
+/// The bytes of a dataset 58b, as many as its line says or, where it does not end there, as
+/// its record 7 has values: pyuff 2.5.6 states half of the bytes of complex doubles.
+std::string taken_block(std::string_view& text, const BinaryForm& form,
+                        std::string_view record_7) {
+  const auto fields = fields_of(record_7);
+  const auto field = [&](std::size_t i) {
+    return i < fields.size() ? csv_number(fields[i].text).value_or(0) : 0;
+  };
+  const bool complex = field(0) == 5 || field(0) == 6,
+             precise = field(0) == 4 || field(0) == 6, even = field(2) == 1;
+  const double y = (precise ? 8 : 4) * (complex ? 2 : 1);
+  for (const double bytes : {form.bytes, field(1) * (even ? y : y + (precise ? 8 : 4)),
+                             field(1) * (even ? y : y + 4)}) {
+    if (!(bytes > 0 && bytes <= kMostBytes)) continue;
+    std::string_view rest = text;
+    auto block = taken_bytes(rest, static_cast<std::size_t>(bytes));
+    if (!ends(rest)) continue;
+    text = rest;
+    return block;
+  }
+  return taken_bytes(text, static_cast<std::size_t>(form.bytes));
+}
+
+/// The lines of a file, the bytes of each dataset 58b in one of them.
+std::vector<FileLine> lines_and_blocks(std::string_view text) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  constexpr std::size_t kRecord7 = 6;
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  std::vector<FileLine> out;
+  BinaryForm form;
+  std::size_t begin = 0;  // of the lines of a dataset 58b; 0: of none
+  while (!text.empty()) {
+    if (begin > 0 && out.size() == begin + kHeader) {
+      out.push_back({.number = out.size() + 1,
+                     .bytes = taken_block(text, form, out[begin + kRecord7].text)});
+      begin = 0;
+      continue;
+    }
+    const bool first = !out.empty() && is_delimiter(out.back().text);
+    out.push_back({.number = out.size() + 1, .text = taken_line(text)});
+    if (!first || !is_binary(out.back().text)) continue;
+    form = binary_form(out.back().text);
+    if (form.valid()) begin = out.size();
+  }
+  return out;
+}
+
+/// IEEE 754 numbers of the sizes [bytes], again and again.
+std::vector<double> decoded(std::string_view bytes, std::span<const std::size_t> sizes,
+                            bool big_endian) {
+  std::vector<double> out;
+  for (std::size_t at = 0, i = 0;; ++i) {
+    const std::size_t size = sizes[i % sizes.size()];
+    if (at + size > bytes.size()) return out;
+    std::uint64_t bits = 0;
+    for (std::size_t k = 0; k < size; ++k) {
+      const std::size_t from = big_endian ? at + k : at + size - 1 - k;
+      bits = bits << 8 | static_cast<unsigned char>(bytes[from]);
+    }
+    out.push_back(size == 8 ? std::bit_cast<double>(bits)
+                            : std::bit_cast<float>(static_cast<std::uint32_t>(bits)));
+    at += size;
+  }
+}
+
 /// Numbers in the columns of the format, 0 for blanks, as Fortran reads them; empty if some
 /// columns hold no number.
 std::vector<double> in_columns(std::string_view line,
@@ -86,7 +221,7 @@ std::vector<double> in_columns(std::string_view line,
 /// Lines of one file, one dataset after the other.
 class UniversalReader {
  public:
-  UniversalReader(const Reader& text, std::vector<TextLine> lines)
+  UniversalReader(const Reader& text, std::vector<FileLine> lines)
       : text_(text), lines_(std::move(lines)) {}
 
   std::vector<UniversalFunction> functions() && {
@@ -96,7 +231,9 @@ class UniversalReader {
       ++at_;
       const std::size_t first = at_;
       while (at_ < lines_.size() && !is_delimiter(lines_[at_].text)) ++at_;
-      if (at_ == lines_.size() && !trimmed(line(first)).starts_with("58b"))
+      const bool bytes_unknown =
+          is_binary(line(first)) && !binary_form(line(first)).valid();
+      if (at_ == lines_.size() && !bytes_unknown)
         report(first, shown_line(first), tr("a dataset that ends with a line of -1"),
                "type");
       dataset(first, at_);
@@ -124,9 +261,9 @@ class UniversalReader {
   void dataset(std::size_t first, std::size_t end) {
     const auto number = trimmed(line(first)).substr(0, trimmed(line(first)).find(' '));
     if (number == "58b")
-      report(first, tr("a binary dataset 58b"), tr("the ASCII form, dataset 58"), "type");
+      binary_function(first, end);
     else if (number == "58")
-      function(first + 1, end);
+      function(first + 1, end, std::nullopt);
     else if (number == "164")
       units_ = read_units(first + 1, end);
     else if (const auto n = csv_number(number); !n || *n < 1)
@@ -197,7 +334,22 @@ class UniversalReader {
     return out;
   }
 
-  void function(std::size_t first, std::size_t end) {
+  void binary_function(std::size_t first, std::size_t end) {
+    const BinaryForm form = binary_form(line(first));
+    if (!form.valid())
+      report(first, shown_line(first),
+             say("58b, 1 or 2 (the order of bytes), 2 (IEEE 754), {} (lines), the number "
+                 "of bytes",
+                 kHeader),
+             "type");
+    else if (end <= first + 1 + kHeader || !lines_[first + 1 + kHeader].bytes)
+      report(first, tr("a binary dataset 58b"), tr(kBytes), "type");
+    else
+      function(first + 1, end, form);
+  }
+
+  void function(std::size_t first, std::size_t end,
+                const std::optional<BinaryForm>& binary) {
     UniversalFunction f;
     f.number = ++functions_;
     f.units = units_;
@@ -215,7 +367,7 @@ class UniversalReader {
     f.ordinate = axis(first + 8);
     f.denominator = axis(first + 9);
     if (f.type == UniversalFunction::kResponse || f.type == UniversalFunction::kCoherence)
-      read_values(f, first + 6, first + kHeader, end);
+      read_values(f, first + 6, first + kHeader, end, binary);
     out_.push_back(std::move(f));
   }
 
@@ -233,6 +385,12 @@ class UniversalReader {
       if (even) return {20};
       return complex() ? std::vector<std::size_t>{13, 20, 20}
                        : std::vector<std::size_t>{13, 20};
+    }
+    /// Bytes of the numbers of a value; an abscissa may be single among doubles.
+    std::vector<std::size_t> sizes(std::size_t bytes) const {
+      std::vector<std::size_t> out(numbers_each(), precise() ? 8 : 4);
+      if (!even && bytes != count * out.size() * out[0]) out[0] = 4;
+      return out;
     }
   };
 
@@ -257,8 +415,22 @@ class UniversalReader {
                 x[4]};
   }
 
+  /// Numbers of a block of bytes.
+  std::vector<double> numbers(std::size_t i, const Form& form, const BinaryForm& binary) {
+    constexpr double kBig = 2;
+    if (!lines_[i].bytes) return {};
+    auto out = decoded(*lines_[i].bytes, form.sizes(lines_[i].bytes->size()),
+                       binary.byte_order == kBig);
+    const auto bad =
+        std::ranges::find_if(out, [](double x) { return !std::isfinite(x); });
+    if (bad != out.end())
+      report(i, say("no finite number in place {} of the bytes", bad - out.begin() + 1),
+             tr("a number"), "type");
+    return out;
+  }
+
   void read_values(UniversalFunction& f, std::size_t record_7, std::size_t first,
-                   std::size_t end) {
+                   std::size_t end, const std::optional<BinaryForm>& binary) {
     const auto form = this->form(record_7);
     if (!form) return;
     f.complex = form->complex();
@@ -267,7 +439,7 @@ class UniversalReader {
     std::vector<double> value;  // numbers of the value that is being read
     std::size_t read = 0;
     for (std::size_t i = first; i < end; ++i)
-      for (const double x : numbers(i, widths)) {
+      for (const double x : binary ? numbers(i, *form, *binary) : numbers(i, widths)) {
         if (++read > all) continue;
         value.push_back(x);
         if (value.size() < each) continue;
@@ -293,7 +465,7 @@ class UniversalReader {
   }
 
   const Reader& text_;
-  std::vector<TextLine> lines_;
+  std::vector<FileLine> lines_;
   std::size_t at_ = 0, datasets_ = 0, functions_ = 0;
   std::optional<UniversalUnits> units_;
   std::vector<UniversalFunction> out_;
@@ -310,11 +482,16 @@ std::string text_of(const UniversalDof& dof) {
 }
 
 std::vector<UniversalFunction> read_universal_file(const Reader& text) {
-  auto lines = text_lines(text, kUniversal);
-  if (text.broken() || lines.empty()) return {};
+  const auto plain = text_lines(text, kUniversal);
+  if (text.broken() || plain.empty()) return {};
+  std::vector<FileLine> lines;
+  if (text.is_text())
+    lines = lines_and_blocks(text.json().get_ref<const std::string&>());
+  else
+    for (const TextLine& l : plain) lines.push_back({.number = l.number, .text = l.text});
   const bool binary = std::ranges::any_of(
-      lines, [](const TextLine& line) { return trimmed(line.text).starts_with("58b "); });
-  if (!binary && !are_text(text, lines, kUniversal)) return {};
+      lines, [](const FileLine& l) { return l.bytes || is_binary(l.text); });
+  if (!binary && !are_text(text, plain, kUniversal)) return {};
   return UniversalReader(text, std::move(lines)).functions();
 }
 

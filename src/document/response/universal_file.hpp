@@ -8,7 +8,7 @@
 
 #include "document/json/reader.hpp"
 
-/// Universal files (SDRC I-DEAS): functions at nodes, dataset 58, in ASCII.
+/// Universal files (SDRC I-DEAS): functions at nodes, dataset 58, in ASCII and binary (58b).
 namespace turnwright::document {
 
 /// Where and along which direction: 0 a scalar, 1 2 3 translation along x y z, 4 5 6
@@ -55,10 +55,12 @@ struct UniversalFunction {
 /// Fields stand in the columns of the format: record 6 in 2(I5,I10),2(1X,10A1,I10,I4),
 /// record 7 in 3I10,3E13.5, records 8 to 11 in I10,3I5,2(1X,20A1), values in 6E13.5, 4E20.12,
 /// 2(E13.5,E20.12) or E13.5,2E20.12.  Numbers of records 7 and 12 that blanks divide may
-/// stand anywhere; exponents may be written with D.
+/// stand anywhere; exponents may be written with D.  The values of a dataset 58b are bytes,
+/// IEEE 754 of either order, behind its 11 lines; the text has a character from U+0000 to
+/// U+00FF for each.  Its line is what counts as one of the file.
 ///
-/// Reported, all of them, by line and column: no dataset; one that does not end; binary
-/// values (58b); records that are cut off; numbers that cannot be read; an ordinate,
+/// Reported, all of them, by line and column: no dataset; one that does not end; bytes of
+/// another format; records that are cut off; numbers that cannot be read; an ordinate,
 /// spacing or number of values that the format does not know; too few or too many values;
 /// abscissae that do not rise.
 /// Source: [SDRC 58], [SDRC 164].

@@ -29,7 +29,13 @@ std::string plus_minus(const ordered_json& parent, const std::string& key) {
          significant(number(parent, ("u_" + key).c_str()), 2);
 }
 
-std::string responses(const ordered_json& result) {
+/// From which order of the diagram on a mode is stable.
+std::string stable_words(const ordered_json& mode) {
+  const auto from = number(mode, "stable_from_order");
+  return from ? say("from order {}", shown(from, 0)) : tr("never");
+}
+
+std::string responses(const ordered_json& result, const std::vector<Figure>& figures) {
   std::string rows, rest;
   for (const auto& r : list(result, "frf")) {
     for (const auto& m : list(r, "modes"))
@@ -37,7 +43,8 @@ std::string responses(const ordered_json& result) {
               number_cell(plus_minus(m, "frequency_Hz")) +
               number_cell(plus_minus(m, "damping_ratio")) +
               number_cell(plus_minus(m, "stiffness_N_mm")) +
-              number_cell(significant(number(m, "mass_kg"))) + "</tr>\n";
+              number_cell(significant(number(m, "mass_kg"))) +
+              words_cell(stable_words(m)) + "</tr>\n";
     rest +=
         tag("p", say("Along {}: {} lines from {} to {} Hz; the modes explain "
                      "{} % of the response's squares, what is left is {} of "
@@ -47,6 +54,8 @@ std::string responses(const ordered_json& result) {
                      shown(100 * number(r, "explained").value_or(0), 3),
                      significant(number(r, "relative_rest"), 2),
                      shown(number(r, "correlation"), 2)));
+    rest += figure_named(figures, "stabilisation-" + word(r, "axis") + ".svg",
+                         tr("Poles of models of rising order over the response"));
   }
   if (rows.empty()) return "";
   return tag("h2", tr("Modes of the measured response")) +
@@ -54,7 +63,8 @@ std::string responses(const ordered_json& result) {
                      {tr("frequency"), "Hz"},
                      {tr("damping ratio"), ""},
                      {tr("stiffness"), "N/mm"},
-                     {tr("mass"), "kg"}}) +
+                     {tr("mass"), "kg"},
+                     {tr("stable"), "", false}}) +
          rows + kTableFoot + rest;
 }
 
@@ -126,8 +136,8 @@ std::string stability_html(std::string_view, const ordered_json& result,
   return page(tr("Stability of the cut"),
               chart_header(result) +
                   figure_named(figures, "stability.svg", tr("Depth over spindle speed")) +
-                  warnings(result) + force(result) + responses(result) + points(result) +
-                  speeds(result) + assumptions(result));
+                  warnings(result) + force(result) + responses(result, figures) +
+                  points(result) + speeds(result) + assumptions(result));
 }
 
 }  // namespace turnwright::report

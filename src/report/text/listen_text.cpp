@@ -34,6 +34,16 @@ std::string heard(const ordered_json& result) {
   return '\n' + paragraph("", out);
 }
 
+/// Speed and teeth that were taken, and the speed that the harmonics tell.
+std::string taken(const ordered_json& result) {
+  const auto& cut = object(result, "taken");
+  if (cut.empty()) return "";
+  return '\n' + paragraph("", say("Taken: {} 1/min, teeth {}; by the harmonics {} 1/min.",
+                                  significant(number(cut, "n_rpm"), 6),
+                                  shown(number(cut, "teeth"), 0),
+                                  significant(number(result, "n_rpm"), 6)));
+}
+
 std::string charted(const ordered_json& result) {
   const auto& chart = object(result, "stability");
   std::string out;
@@ -68,7 +78,7 @@ std::string lines(const ordered_json& result) {
 }  // namespace
 
 std::string listen_text(const ordered_json& result) {
-  return tr("SOUND OF THE CUT") + '\n' + made_by(result) + heard(result) +
+  return tr("SOUND OF THE CUT") + '\n' + made_by(result) + taken(result) + heard(result) +
          charted(result) + lines(result);
 }
 

@@ -98,11 +98,19 @@ std::string modes(const ordered_json& result) {
     for (const auto& m : list(r, "modes"))
       rows.push_back({{word(r, "axis"), significant(number(m, "frequency_Hz"), 5),
                        significant(number(m, "damping_ratio"), 3),
-                       shown(number(m, "stiffness_N_mm"), 0)},
+                       shown(number(m, "stiffness_N_mm"), 0),
+                       shown(number(m, "stable_from_order"), 0)},
                       ""});
   if (rows.empty()) return "";
-  return '\n' + tr("MODES  of the measured response") + '\n' +
-         table({{tr("axis"), Align::left}, {"Hz"}, {tr("damping ratio")}, {"N/mm"}},
+  return '\n' +
+         tr("MODES  of the measured response; the order of models from which they are "
+            "stable, - for never") +
+         '\n' +
+         table({{tr("axis"), Align::left},
+                {"Hz"},
+                {tr("damping ratio")},
+                {"N/mm"},
+                {tr("stable from")}},
                rows);
 }
 

@@ -44,6 +44,7 @@ TEST(Listen, HearsChatterAndTellsSpeedsWithoutIt) {
   EXPECT_NEAR(r["chatter"]["frequency_Hz"], 730, 0.7);
   EXPECT_NEAR(r["chatter"]["amplitude"], 0.25, 0.01);
   EXPECT_NEAR(r["n_rpm"], 6000, 6);
+  EXPECT_EQ(r["taken"], (json{{"n_rpm", example(0)["n_rpm"]}, {"teeth", 4}}));
   EXPECT_EQ(r["harmonics"][0]["order"], 4);
   EXPECT_EQ(r["harmonics"][0]["of_teeth"], true);
   EXPECT_EQ(r["harmonics"][1]["order"], 1);

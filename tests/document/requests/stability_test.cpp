@@ -564,7 +564,7 @@ TEST(Stability, DoubtfulResponsesComeWithAWarning) {
   q["frf"][0]["modes"] = 1;  // of two
   const json one = answered(q);
   EXPECT_LT(one["frf"][0]["explained"], 0.9);
-  ASSERT_EQ(one["warnings"].size(), 2u);
+  ASSERT_EQ(one["warnings"].size(), 3u);
   EXPECT_EQ(one["warnings"][0].get<std::string>().substr(0, 25),
             "/frf/0: the modes explain");
   double most = 0;
@@ -573,6 +573,32 @@ TEST(Stability, DoubtfulResponsesComeWithAWarning) {
   EXPECT_GT(most, 0.1);  // the second one
   EXPECT_EQ(one["warnings"][1].get<std::string>().substr(0, 24),
             "/frf/0: up to the octave");
+  EXPECT_EQ(one["warnings"][2].get<std::string>().substr(0, 17), "/frf/0: a pole at");
+  ASSERT_EQ(one["frf"][0]["stabilisation"]["unfitted"].size(), 1u);
+  EXPECT_LT(one["frf"][0]["stabilisation"]["unfitted"][0]["least_depth_with"], 1);
+}
+
+TEST(Stability, TheDiagramOfAResponseIsTold) {
+  const json r = answered(example(11))["frf"][0];
+  const json& diagram = r["stabilisation"];
+  ASSERT_EQ(r["modes"].size(), 2u);
+  for (const json& mode : r["modes"]) {
+    const int from = mode["stable_from_order"], orders = mode["stable_orders"];
+    const double f = mode["frequency_Hz"], zeta = mode["damping_ratio"];
+    EXPECT_LE(from, 10);
+    EXPECT_GT(std::abs(mode["least_depth_without"].get<double>() - 1), 0.05);
+    int stable = 0;
+    for (const json& pole : diagram["poles"])
+      if (pole["stable"] == "all" &&
+          std::abs(pole["frequency_Hz"].get<double>() / f - 1) < std::max(0.01, zeta / 2))
+        ++stable;
+    EXPECT_EQ(stable, orders);
+  }
+  EXPECT_EQ(diagram["unfitted"], json::array());
+  EXPECT_EQ(diagram["orders"].get<std::size_t>(),
+            std::min<std::size_t>(40, r["lines"].get<std::size_t>() / 3));
+  EXPECT_EQ(diagram["curve"]["frequency_Hz"].size(),
+            diagram["curve"]["magnitude"].size());
 }
 
 TEST(Stability, LinesThatDoNotCountAreTold) {

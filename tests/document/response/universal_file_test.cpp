@@ -4,6 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <bit>
+#include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -11,6 +15,7 @@
 
 #include "document/response/measured_file.hpp"
 #include "responses.hpp"
+#include "turnwright/base/errors.hpp"
 
 namespace turnwright::document::universal_file_test {
 namespace {
@@ -144,12 +149,6 @@ TEST(UniversalFile, TheUnitOfTheRequestCounts) {
       R"(stability: /frf/0/unit: got "m/N", expected that of accelerance, as data type 12 of the file says)");
 }
 
-TEST(UniversalFile, BinaryValuesAreRefusedByName) {
-  EXPECT_EQ(
-      refused(frf("binary-58b")),
-      R"(stability: /frf/0/uff/text#line 2: got a binary dataset 58b, expected the ASCII form, dataset 58)");
-}
-
 TEST(UniversalFile, OneFormIsGiven) {
   json asked = frf("accelerance-even-double");
   asked["csv"] = "f,re [m/N],im\n1,2,3";
@@ -162,6 +161,93 @@ std::vector<UniversalFunction> functions(const json& text) {
   auto out = read_universal_file(Reader(text, problems));
   problems.throw_if_any();
   return out;
+}
+
+// Its line states 408 bytes, half of what there are.
+TEST(UniversalFile, BinaryValuesAreThoseOfTheText) {
+  json binary = told(frf("binary-58b")), text = told(frf("accelerance-even-double"));
+  expect_modes(binary, kTwo, 1e-9);
+  for (const char* key : {"lines", "unit", "record", "from_Hz", "to_Hz"})
+    EXPECT_EQ(binary[key], text[key]) << key;
+}
+
+/// A number of `size` bytes, the highest first or last.
+std::string bytes_of(double x, std::size_t size, bool big_endian) {
+  std::string out(size, '\0');
+  const auto single = static_cast<float>(x);
+  std::memcpy(out.data(), size == 8 ? static_cast<const void*>(&x) : &single, size);
+  if ((std::endian::native == std::endian::big) != big_endian) std::ranges::reverse(out);
+  return out;
+}
+
+// By hand from the layout of [SDRC 58]: single and double, even and uneven, both orders of
+// bytes, a single abscissa before doubles, a line end behind the bytes.
+TEST(UniversalFile, EveryFormOfBytesGivesTheModesBack) {
+  const auto head = bytes_of(source_path("tests/data/uff/binary-58b.uff"));
+  const auto line = [&](std::size_t n) {
+    std::size_t at = 0;
+    while (n-- > 0) at = head.find('\n', at) + 1;
+    return head.substr(at, head.find('\n', at) - at);
+  };
+  const auto padded = [](std::size_t x, std::size_t width) {
+    const auto digits = std::to_string(x);
+    return std::string(width - digits.size(), ' ') + digits;
+  };
+  for (const bool big : {false, true})
+    for (const bool even : {false, true})
+      for (const auto& [y_bytes, x_bytes] :
+           {std::pair<std::size_t, std::size_t>{4, 4}, {8, 4}, {8, 8}}) {
+        SCOPED_TRACE(testing::Message() << big << even << y_bytes << x_bytes);
+        std::string block;
+        for (int i = 0; i <= 50; ++i) {
+          const double f = 500 + 12 * i;
+          const Complex y = response_of(kTwo, f, 2) / 1e3;
+          if (!even) block += bytes_of(f, x_bytes, big);
+          block += bytes_of(y.real(), y_bytes, big) + bytes_of(y.imag(), y_bytes, big);
+        }
+        std::string file = "    -1\n    58b" + padded(big ? 2 : 1, 6) + padded(2, 6) +
+                           padded(11, 12) + padded(block.size(), 12) + "\n";
+        for (std::size_t n = 2; n < 13; ++n)
+          file += (n == 8 ? padded(y_bytes == 4 ? 5 : 6, 10) + padded(51, 10) +
+                                padded(even ? 1 : 0, 10) + "  5.00000e+02  1.20000e+01"
+                          : line(n)) +
+                  "\r\n";
+        file += block + (big ? "\r\n" : "") + "    -1\n";
+        expect_modes(told(measured_file(file)), kTwo, y_bytes == 4 ? 1e-4 : 1e-9);
+      }
+}
+
+TEST(UniversalFile, BytesThatDoNotFitTheirHeaderAreRefused) {
+  const std::string file = bytes_of(source_path("tests/data/uff/binary-58b.uff"));
+  const auto refusal = [&](const std::string& old, const std::string& now) {
+    std::string text = file;
+    const auto at = text.find(old);
+    EXPECT_NE(at, text.npos);
+    return refused(measured_file(text.replace(at, old.size(), now)));
+  };
+  const auto other_format = refusal("58b     1     2", "58b     1     1");
+  EXPECT_NE(other_format.find("/uff/text#line 2: got \"58b     1     1 "),
+            std::string::npos);
+  EXPECT_NE(other_format.find("expected 58b, 1 or 2 (the order of bytes), 2 (IEEE 754)"),
+            std::string::npos);
+  EXPECT_EQ(other_format.find('\n'), std::string::npos);
+  EXPECT_NE(refusal("         6        51  ", "         6        52  ").find("numbers"),
+            std::string::npos);
+  const std::string one(8, '\xFF');                           // not a number
+  const std::string last = file.substr(file.size() - 15, 8);  // before "    -1\n"
+  EXPECT_NE(refusal(last, one).find("no finite number in place 102 of"),
+            std::string::npos);
+  json lines = json::array();
+  std::istringstream text(frf("binary-58b")["uff"]["text"].get<std::string>());
+  for (std::string l; std::getline(text, l);) lines.push_back(l);
+  EXPECT_NE(refused({{"uff", {{"text", lines}}}}), "");
+}
+
+TEST(UniversalFile, BytesOfOtherFunctionsAreSkipped) {
+  const auto all = functions(frf("pyuff-binary-time-history")["uff"]["text"]);
+  ASSERT_EQ(all.size(), 1U);
+  EXPECT_EQ(all[0].type, 1);
+  EXPECT_EQ(all[0].ordinate.units, "g");
 }
 
 // Values as its text has them; the label's second power is one byte of ISO 8859-1.
@@ -238,12 +324,55 @@ TEST(UniversalFile, DamagedFilesAreTakenOrRefusedAndNothingElse) {
   EXPECT_LT(refusals, 400);
 }
 
+TEST(UniversalFile, DamagedBytesAreTakenOrRefusedAndNothingElse) {
+  const std::string good = bytes_of(source_path("tests/data/uff/binary-58b.uff"));
+  std::mt19937 random(4);
+  const auto below = [&](std::size_t n) { return random() % n; };
+  int refusals = 0;
+  for (int i = 0; i < 300; ++i) {
+    std::string bytes = good;
+    const auto at = below(bytes.size());
+    if (below(3) == 0)
+      bytes.erase(at, 1 + below(30));
+    else if (below(2) == 0)
+      bytes.insert(at, bytes.substr(below(bytes.size()), below(30)));
+    else
+      bytes[at] = static_cast<char>(below(256));
+    try {
+      if (refused(measured_file(bytes)) != "") ++refusals;
+    } catch (const ModelRangeError&) {  // modes of damaged values
+      ++refusals;
+    }
+  }
+  EXPECT_GT(refusals, 50);
+  EXPECT_LT(refusals, 300);
+}
+
 TEST(MeasuredFile, IsRecognisedByItsFirstLine) {
   EXPECT_TRUE(measured_file("    -1\r\n    58\r\n").contains("uff"));
   EXPECT_TRUE(measured_file("-1,2\n").contains("csv"));
   EXPECT_TRUE(measured_file("-1").contains("csv"));
   EXPECT_EQ(measured_file("f,\xB5m/N\n")["csv"], "f,\u00b5m/N\n");
   EXPECT_EQ(measured_file("f,\u00b5m/N\n")["csv"], "f,\u00b5m/N\n");
+}
+
+// As a public script, Matlab2CutPro.m, writes them for CutPro: values with tabs behind them,
+// labels behind the first.
+TEST(MeasuredFile, AFrfOfCutProGivesTheModesBack) {
+  std::string file;
+  for (int i = 0; i <= 200; ++i) {
+    const double f = 400 + 4 * i;
+    const Complex y = response_of(kTwo, f) / 1e3;  // m/N
+    char line[100];
+    std::snprintf(line, sizeof line, "%14.6e\t%14.12e\t%14.12e\t", f, y.real(), y.imag());
+    file +=
+        std::string(line) + (i == 0 ? "Freq\tHz\tReal\tm/N\tImag\tReal\t\r\n" : "\r\n");
+  }
+  const json r = told(measured_file(file));
+  expect_modes(r, kTwo, 1e-6);
+  EXPECT_EQ(r["lines"], 201);
+  EXPECT_EQ(r["unit"], "m/N");
+  EXPECT_EQ(measured_file("1\t2\t3\tno labels\n")["csv"], "1\t2\t3\tno labels\n");
 }
 
 }  // namespace

@@ -126,7 +126,8 @@ TEST(UncertainLife, TheCataloguesIsCounted) {
   d["material"] = "C45";
   const auto p = part_to_predict(d);
   EXPECT_EQ(life_spread(p), 0.5);
-  const auto& t = tolerance(predict(p), "d2:diameter");
+  const auto predicted = predict(p);
+  const auto& t = tolerance(predicted, "d2:diameter");
   EXPECT_GT(share_um(t, "life"), 0);
   EXPECT_LT(t.P_conform, tolerance(known, "d2:diameter").P_conform - 1e-3);
 }

@@ -15,7 +15,10 @@ ordered_json result() {
     "frf": [{"axis": "x", "lines": 31, "from_Hz": 700, "to_Hz": 1300,
       "modes": [{"frequency_Hz": 922.04, "u_frequency_Hz": 0.031, "damping_ratio": 0.03,
                  "u_damping_ratio": 0.0004, "stiffness_N_mm": 9000.4,
-                 "u_stiffness_N_mm": 12, "mass_kg": 0.268}],
+                 "u_stiffness_N_mm": 12, "mass_kg": 0.268, "stable_from_order": 7},
+                {"frequency_Hz": 1100, "u_frequency_Hz": 9, "damping_ratio": 0.03,
+                 "u_damping_ratio": 0.01, "stiffness_N_mm": 9e4,
+                 "u_stiffness_N_mm": 3e4, "mass_kg": 1.9, "stable_from_order": null}],
       "explained": 0.99991, "relative_rest": 0.0095, "correlation": 0.04}],
     "force": {"hm_mm": 0.024, "Kt_MPa": 4512.3, "Kn_MPa": 2256.2},
     "speeds": [{"n_rpm": 6000, "limit_mm": 1.25, "crossings": [
@@ -30,14 +33,16 @@ ordered_json result() {
 }
 
 TEST(StabilityHtml, SaysTheNumbersOfTheDocument) {
-  const auto page =
-      stability_html("part", result(), {{"stability.svg", "<svg>chart</svg>"}});
+  const auto page = stability_html("part", result(),
+                                   {{"stability.svg", "<svg>chart</svg>"},
+                                    {"stabilisation-x.svg", "<svg>poles</svg>"}});
   EXPECT_EQ(page.rfind("<!doctype html>", 0), 0u);
   for (const char* what :
        {"7000 <small>1/min", "a larger ap_max_mm may allow more", "922.04 \u00b1 0.031",
         "9000.4 \u00b1 12", "31 lines from 700 to 1300 Hz", "99.991 %", "Kt 4512 MPa",
         "chatter at 900 Hz from 1.25 mm", "no chatter", "chatters</td>", "/a&lt;b",
-        "data:image/svg+xml,%3Csvg%3Echart", "request 0123456789abcdef"})
+        "data:image/svg+xml,%3Csvg%3Echart", "data:image/svg+xml,%3Csvg%3Epoles",
+        "<td>from order 7</td>", "<td>never</td>", "request 0123456789abcdef"})
     EXPECT_NE(page.find(what), std::string::npos) << what;
   EXPECT_EQ(page.find("<b"), page.find("<body"));  // nothing unescaped
 }

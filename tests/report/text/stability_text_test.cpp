@@ -15,7 +15,8 @@ using nlohmann::ordered_json;
 ordered_json result() {
   return ordered_json::parse(R"({
     "frf": [{"axis": "x", "modes": [
-      {"frequency_Hz": 922.04, "damping_ratio": 0.03, "stiffness_N_mm": 16000.4}]}],
+      {"frequency_Hz": 922.04, "damping_ratio": 0.03, "stiffness_N_mm": 16000.4,
+       "stable_from_order": 7}]}],
     "speeds": [{"n_rpm": 10600, "limit_mm": 1.442, "crossings": [
         {"ap_mm": 1.442, "sense": "loss", "kind": "flip", "frequency_Hz": 883},
         {"ap_mm": 2.74, "sense": "regain", "kind": "flip", "frequency_Hz": 883}]},
@@ -58,7 +59,7 @@ TEST(StabilityText, TellsCutsInAMachinistsWords) {
         "stable, margin 2.96 mm", "stable, and up to the largest depth asked for",
         "stable only above depths that chatter from 1.44 mm on",
         "chatter at 883 Hz from 1.44 mm, stable again from 2.74 mm", "no chatter",
-        "9100 (4.18 mm)", "16000", "/speeds_rpm/2: 1 1/min, 6 mm: too slow",
+        "9100 (4.18 mm)", "16000 7 ", "/speeds_rpm/2: 1 1/min, 6 mm: too slow",
         "/frf/0: noise", "/speed_margin = 0.02: usual"})
     EXPECT_NE(text.find(what), std::string::npos) << what << '\n' << text;
   EXPECT_NE(text.find("at none of the speeds asked for it would be stable"),
