@@ -61,7 +61,7 @@ class Patches {
     constexpr double kWide = 8;  // terms that matter across the disc
     const double share = disc.radius / series_->radius_mm;
     if (modulus(disc.centre) + disc.radius > series_->radius_mm ||
-        share * static_cast<double>(series_->size.size()) > kWide)
+        share * static_cast<double>(series_->terms()) > kWide)
       return std::nullopt;
     return Patch::of(*series_, disc, rho_);
   }
