@@ -77,7 +77,11 @@ class Climb {
     std::vector<OnCircle> zeros;
     double w = 0;
     try {
-      const auto whole = series_up_to(fine_, ap_max);
+      // A series of many modes takes longer to search than it takes to follow a zero.
+      constexpr std::size_t kFewModes = 2;
+      constexpr double kFew = 100, kMany = 30;
+      const auto whole = series_up_to(
+          fine_, ap_max, fine_.system().modes.size() <= kFewModes ? kFew : kMany);
       if (!whole) return 0;
       w = whole->depth_mm;
       zeros = on_circle(whole->series, coarse_, fine_, w);

@@ -151,6 +151,23 @@ double Series::noise(double kappa_abs) const {
          rounding * (1 + bound * (1 + (states() == 2 ? 0 : bound + at(minors))));
 }
 
+// Horner's rule in kappa/radius = s (1 - z).
+std::vector<double> by_powers(const Series& series, double w_mm) {
+  const double s = w_mm / series.radius_mm;
+  std::vector<double> out;
+  for (std::size_t i = 0; i < series.c.size(); ++i) {
+    const std::vector<double>& c = series.c[i];
+    std::vector<double> p(c.size(), 0);
+    for (std::size_t j = c.size(); j-- > 0;) {
+      for (std::size_t l = c.size() - 1; l > 0; --l) p[l] = s * (p[l] - p[l - 1]);
+      p[0] = s * p[0] + c[j];
+    }
+    if (out.size() < i + p.size()) out.resize(i + p.size(), 0);
+    for (std::size_t l = 0; l < p.size(); ++l) out[i + l] += p[l];
+  }
+  return out;
+}
+
 SeriesValue value(const Series& series, std::complex<double> z,
                   std::complex<double> kappa_mm) {
   const std::complex<double> t = kappa_mm / series.radius_mm;
@@ -260,16 +277,14 @@ std::optional<Series> sampled_series(const Characteristic& f, double kappa_max_m
   return std::nullopt;
 }
 
-std::optional<DeepSeries> series_up_to(const Characteristic& f, double ap_max_mm) {
-  constexpr double kReach = 2.2;  // kappa over depth, with room for boxes at the edge
-  // By `growth`: beyond it no series is precise enough; of many modes it takes longer to
-  // search one than to follow a zero.
-  constexpr double kGrowth = 100, kSampledGrowth = 30;
+std::optional<DeepSeries> series_up_to(const Characteristic& f, double ap_max_mm,
+                                       double most_growth) {
+  constexpr double kReach = 2.2;     // kappa over depth, with room for boxes at the edge
   constexpr double kPrecise = 1e-7;  // noise accepted
   const bool few = f.system().modes.size() <= 2;
   for (double w = ap_max_mm; w > 1e-6 * ap_max_mm; w /= 2) {
     const double kappa_max = kReach * w;
-    if (f.growth(kappa_max) > (few ? kGrowth : kSampledGrowth)) continue;
+    if (f.growth(kappa_max) > most_growth) continue;
     auto made =
         few ? series(propagator(f.system(), f.arcs(), f.n_rpm(), kappa_max, kFine),
                      kappa_max)

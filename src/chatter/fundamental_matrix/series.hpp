@@ -36,6 +36,9 @@ struct Series {
   double noise(double kappa_abs) const;
 };
 
+/// Coefficients of f(z, w (1 - z)) by powers of z, at one depth.
+std::vector<double> by_powers(const Series& series, double w_mm);
+
 /// f and its derivatives at one point.
 struct SeriesValue {
   std::complex<double> f, f_z, f_kappa;
@@ -54,10 +57,12 @@ std::optional<Series> sampled_series(const Characteristic& f, double kappa_max_m
 
 /// The series of one spindle speed for depths up to `depth_mm`, which is ap_max or the
 /// depth at which the series ceases to be precise; none if there is no series.
+/// @param most_growth  by `growth`, beyond which none is tried.
 struct DeepSeries {
   Series series;
   double depth_mm = 0;
 };
-std::optional<DeepSeries> series_up_to(const Characteristic& f, double ap_max_mm);
+std::optional<DeepSeries> series_up_to(const Characteristic& f, double ap_max_mm,
+                                       double most_growth = 100);
 
 }  // namespace turnwright::chatter
