@@ -305,6 +305,10 @@ TEST(Cutter, HelicesAloneAgreeWithCollocation) {
     for (const double helix_deg : {12.0, 45.0}) {
       Cutter c{.system = many_modes(modes, down_milling(0.1 + 0.18 * modes))};
       c.system.teeth = 2 + modes % 3;
+      if (modes == 2) {  // neither end of the cut at the beginning of a period
+        c.system.entry_rad = 0.4;
+        c.system.exit_rad = 1.1;
+      }
       c.helix_rad = helix_deg * kPi / 180;
       c.diameter_mm = 12;
       const double n_rpm = 6000 + 12000 * share(random), deepest = 3.0 / modes;
