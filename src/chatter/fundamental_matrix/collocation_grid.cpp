@@ -231,7 +231,7 @@ std::vector<ArcLoad> helical_arc_loads(const Cutter& cutter, double n_rpm, doubl
   // Free flight follows a cut.
   const auto first = std::ranges::find_if(
       out, [](const ArcLoad& load) { return !load.arc.offsets_rad.empty(); });
-  std::ranges::rotate(out, first);
+  std::rotate(out.begin(), first, out.end());
   return out;
 }
 
