@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "turnwright/base/units.hpp"
+#include "turnwright/chatter/cutter_limits.hpp"
 #include "turnwright/chatter/limits.hpp"
 #include "turnwright/chatter/reference_methods.hpp"
 
@@ -76,6 +77,30 @@ void twenty_speeds(benchmark::State& state) {
 }
 BENCHMARK(twenty_speeds)
     ->ArgsProduct({{1, 2, 3, 4}, {1, 2, 4, 8}})
+    ->Unit(benchmark::kMillisecond);
+
+/// Ten speeds of a tool of 10 mm with four teeth, a/D 0.1, up to 4 mm, with one or two
+/// modes: 0 a helix of 30 degrees, 1 pitches 5 degrees longer and shorter in turn, 2 runout
+/// of 0.01 mm.
+void ten_speeds_of_cutters(benchmark::State& state) {
+  Cutter c{.system = tool(state.range(1), 0.1)};
+  constexpr double kDegree = units::kPi / 180;
+  c.system.teeth = 4;
+  c.diameter_mm = 10;
+  c.feed_mm = 0.1;
+  if (state.range(0) == 0) c.helix_rad = 30 * kDegree;
+  if (state.range(0) == 1)
+    c.pitch_rad = {95 * kDegree, 85 * kDegree, 95 * kDegree, 85 * kDegree};
+  if (state.range(0) == 2)
+    for (const double deg : {17, 107, 197, 287})
+      c.offset_mm.push_back(0.01 * std::cos(deg * kDegree));
+  constexpr int kFew = 10;
+  for (auto _ : state)
+    for (int i = 0; i < kFew; ++i)
+      benchmark::DoNotOptimize(speed_limits(c, 5000 + 2000.0 * i, 4));
+}
+BENCHMARK(ten_speeds_of_cutters)
+    ->ArgsProduct({{0, 1, 2}, {1, 2}})
     ->Unit(benchmark::kMillisecond);
 
 /// One cut by 40 intervals; a chart of 200 x 100 cuts takes 20000 times as long.

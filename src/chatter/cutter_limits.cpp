@@ -73,8 +73,65 @@ void refine(const MapAt& map_at, double outwards, OnCircle& at) {
   }
 }
 
-/// Newton's method on the interpolant, then steps to the finer maps' multipliers.
-OnCircle polished(const CharacteristicInterpolant& interpolant, const MapAt& map_at,
+/// Whether the edges differ from straight ones in their helix alone, so that the delayed
+/// motion is the present one times a constant, as in propagator.hpp.
+bool only_helical(const Cutter& c) {
+  return c.helix_rad > 0 && c.indentation_N_mm == 0 && !c.by_revolution() &&
+         std::holds_alternative<LinearForce>(c.system.force);
+}
+
+/// f of an only helical cutter at one depth.
+Characteristic helical(const Cutter& cutter, double n_rpm, double ap_mm,
+                       const Resolution& resolution) {
+  return {cutter.system, helical_arc_loads(cutter, n_rpm, ap_mm), n_rpm, resolution};
+}
+
+/// Approximate number of operations for its series: products of 20 terms with 40 for every
+/// interval.
+double helical_work(const Cutter& cutter, double n_rpm) {
+  constexpr double kEach = 20 * 40, kPhase = 5;  // rad of an interval
+  double fastest = 0;
+  for (const Mode& m : cutter.system.modes) fastest = std::max(fastest, m.wn_rad_s);
+  const auto states = 2 * static_cast<double>(cutter.system.modes.size());
+  return kEach * states * states * states *
+         (2 + fastest * period_s(cutter, n_rpm) / kPhase);
+}
+
+/// The f of a depth at a resolution; counted as work.
+using HelicalAt =
+    std::function<Characteristic(double w_mm, const Resolution& resolution)>;
+
+/// Newton's method with the slopes of the interpolant, at two resolutions of unlike
+/// fineness.  Three times the step between their zeros is told, and at least 1e-10.
+void refine(const HelicalAt& helical_at, const CharacteristicInterpolant& interpolant,
+            const Local& slope, OnCircle& at) {
+  constexpr int kIterations = 20;
+  constexpr double kSettled = 1e-12, kSteps = 3, kLeast = 1e-10;
+  const bool flip = at.flip();
+  double coarse = 0, step = 0;
+  for (const Resolution& resolution : {kCoarse, kFine}) {
+    coarse = at.w_mm;
+    for (int i = 0; i < kIterations; ++i) {
+      const Complex g =
+          interpolant.phase(at.theta) *
+          helical_at(at.w_mm, resolution).value(std::polar(1.0, -at.theta), 1);
+      const double det = cross(slope.g_w, slope.g_theta);
+      step = flip ? -g.real() / slope.g_w.real() : -cross(g, slope.g_theta) / det;
+      if (!flip) at.theta -= cross(slope.g_w, g) / det;
+      at.w_mm += step;
+      if (std::abs(step) <= kSettled * at.w_mm) break;
+    }
+  }
+  at.relative_error =
+      std::max(kSteps * (std::abs(at.w_mm - coarse) + std::abs(step)) / at.w_mm, kLeast);
+}
+
+/// Refines a zero of the interpolant with the given slopes.
+using Refine = std::function<void(const CharacteristicInterpolant& interpolant,
+                                  const Local& slope, OnCircle& at)>;
+
+/// Newton's method on the interpolant, then on what it interpolates.
+OnCircle polished(const CharacteristicInterpolant& interpolant, const Refine& refine,
                   const Box& zero) {
   constexpr int kSteps = 30;
   OnCircle at{.w_mm = zero.w, .theta = zero.theta};
@@ -94,7 +151,7 @@ OnCircle polished(const CharacteristicInterpolant& interpolant, const MapAt& map
                                      : std::abs(g.g_theta / cross(g.g_w, g.g_theta)));
   at.change = (outwards(g) > 0 ? 1 : -1) * (on_line ? 1 : 2);
   at.relative_error = uncertain / at.w_mm;
-  refine(map_at, outwards(g), at);
+  refine(interpolant, g, at);
   return at;
 }
 
@@ -131,17 +188,44 @@ class Ascent {
     constexpr int kSamples = 17;
     const double lag = lag_rad_mm(cutter_),
                  least = lag > 0 ? std::min(kBeside / lag, 1e-6 * (to - from)) : 0;
+    const auto beside = [&](double w) { return std::clamp(w, from + least, to - least); };
+    if (only_helical(cutter_)) {
+      bool precise = true;
+      const auto made = CharacteristicInterpolant::sampled(
+          [&](double w, bool counted) {
+            auto sample = helical_sample(beside(w), counted);
+            precise = precise && sample;
+            return sample ? *sample : DepthSample{.d = {1}, .noise = 0, .outside = 0};
+          },
+          from, to, tail);
+      if (precise) return made;
+    }
     const DelayMap::Range range{from, to};
     const double most =
         kSamples * DelayMap(cutter_, n_rpm_, to - least, range, kPlain).work();
     if (most > left_ / 2) throw TooManyVibrations(tr(kTooLong));
-    const auto beside = [&](double w) {
-      const DelayMap map(cutter_, n_rpm_, std::clamp(w, from + least, to - least), range,
-                         kPlain);
-      spend(map.work());
-      return map.multipliers();
-    };
-    return CharacteristicInterpolant::sampled(beside, from, to, tail);
+    return CharacteristicInterpolant::sampled(
+        [&](double w, bool) {
+          const DelayMap map(cutter_, n_rpm_, beside(w), range, kPlain);
+          spend(map.work());
+          return depth_sample(map.multipliers());
+        },
+        from, to, tail);
+  }
+
+  Characteristic helical_at(double w, const Resolution& resolution) {
+    spend(helical_work(cutter_, n_rpm_));
+    return helical(cutter_, n_rpm_, w, resolution);
+  }
+
+  /// None where the series of the depth is not precise.
+  std::optional<DepthSample> helical_sample(double w, bool counted) {
+    const Characteristic f = helical_at(w, kFine);
+    const auto whole = series_up_to(f, 1);
+    if (!whole || whole->depth_mm < 1) return std::nullopt;
+    DepthSample out{.d = by_powers(whole->series, 1), .noise = whole->series.noise(2)};
+    if (counted) out.outside = multipliers_outside(whole->series, 1);
+    return out;
   }
 
   /// Searches a range, or its halves if the whole is not precise enough, too large or
@@ -177,15 +261,10 @@ class Ascent {
     } catch (const ModelRangeError&) {
       return false;
     }
-    const auto map_at = [this](double w_mm, const Fineness& fineness) {
-      DelayMap map(cutter_, n_rpm_, w_mm, fineness);
-      spend(map.work_near());
-      return map;
-    };
     std::vector<OnCircle> found;
     int count = interpolant.unstable_at_from();
     for (const Box& zero : search.found()) {
-      const OnCircle at = polished(interpolant, map_at, zero);
+      const OnCircle at = polished(interpolant, refiner(), zero);
       const auto again = [&](const OnCircle& other) {
         return std::abs(other.w_mm - at.w_mm) < 1e-8 * at.w_mm &&
                std::abs(other.theta - at.theta) < 1e-6;
@@ -199,6 +278,23 @@ class Ascent {
     if (count != interpolant.unstable_at_to()) return false;
     zeros_.insert(zeros_.end(), found.begin(), found.end());
     return true;
+  }
+
+  Refine refiner() {
+    if (only_helical(cutter_))
+      return [this](const CharacteristicInterpolant& interpolant, const Local& slope,
+                    OnCircle& at) {
+        refine([this](double w, const Resolution& r) { return helical_at(w, r); },
+               interpolant, slope, at);
+      };
+    return [this](const CharacteristicInterpolant&, const Local& slope, OnCircle& at) {
+      const auto map_at = [this](double w_mm, const Fineness& fineness) {
+        DelayMap map(cutter_, n_rpm_, w_mm, fineness);
+        spend(map.work_near());
+        return map;
+      };
+      refine(map_at, outwards(slope), at);
+    };
   }
 
   static constexpr const char* kTooLong = to_translate(

@@ -71,13 +71,24 @@ class Climb {
     return w;
   }
 
-  /// Searches as far as one series is precise, and returns that depth.
+  /// Searches as far as one series is precise, and returns that depth; 0 if its noise
+  /// hides the zeros, which smaller patches may tell apart.
   double by_series(double ap_max) {
-    const auto whole =
-        series_up_to(coarse_.system(), coarse_.arcs(), coarse_.n_rpm(), ap_max);
-    if (!whole) return 0;
-    const double w = whole->depth_mm;
-    enter(on_circle(whole->series, coarse_, fine_, w));
+    std::vector<OnCircle> zeros;
+    double w = 0;
+    try {
+      // A series of many modes takes longer to search than it takes to follow a zero.
+      constexpr std::size_t kFewModes = 2;
+      constexpr double kFew = 100, kMany = 30;
+      const auto whole = series_up_to(
+          fine_, ap_max, fine_.system().modes.size() <= kFewModes ? kFew : kMany);
+      if (!whole) return 0;
+      w = whole->depth_mm;
+      zeros = on_circle(whole->series, coarse_, fine_, w);
+    } catch (const ModelRangeError&) {
+      return 0;
+    }
+    enter(zeros);
     return w;
   }
 

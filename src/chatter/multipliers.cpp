@@ -34,7 +34,7 @@ Multipliers multipliers(const System& system, double n_rpm, double ap_mm) {
   const Spectrum collocated = spectrum(system, n_rpm, ap_mm);
   Multipliers out{.unstable = 0, .spectral_radius = collocated.radius};
   try {
-    const auto whole = series_up_to(system, f.arcs(), n_rpm, ap_mm);
+    const auto whole = series_up_to(f, ap_mm);
     const bool deep = whole && whole->depth_mm == ap_mm;
     out.unstable =
         deep ? multipliers_outside(whole->series, ap_mm) : multipliers_outside(f, ap_mm);

@@ -103,6 +103,8 @@ std::vector<Case> cases() {
           {benchmark(Directions::two, down_milling(0.1)), 4},
           {benchmark(Directions::two, up_milling(0.3)), 1},
           {benchmark(Directions::two, down_milling(1)), 0.3},
+          {many_modes(3, down_milling(0.1)), 1.5},
+          {many_modes(4, up_milling(0.3)), 0.4},
           {slot_cutter(), 60}};
 }
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <complex>
+#include <random>
 
 #include "constant_factor.hpp"
 #include "cutters.hpp"
@@ -292,6 +293,41 @@ TEST(Cutter, DeepHelicalSlotIsTold) {
     for (const double share : {0.999, 1.001})
       EXPECT_EQ(multipliers(c, 12000, share * at.ap_mm).unstable > 0,
                 (share > 1) == at.loss);
+}
+
+// Limits by the series in 1 - z of each depth, against the multipliers of the collocated
+// motion.
+TEST(Cutter, HelicesAloneAgreeWithCollocation) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> share(0, 1);
+  int lost = 0;
+  for (int modes = 1; modes <= 5; ++modes)
+    for (const double helix_deg : {12.0, 45.0}) {
+      Cutter c{.system = many_modes(modes, down_milling(0.1 + 0.18 * modes))};
+      c.system.teeth = 2 + modes % 3;
+      if (modes == 2) {  // neither end of the cut at the beginning of a period
+        c.system.entry_rad = 0.4;
+        c.system.exit_rad = 1.1;
+      }
+      c.helix_rad = helix_deg * kPi / 180;
+      c.diameter_mm = 12;
+      const double n_rpm = 6000 + 12000 * share(random), deepest = 3.0 / modes;
+      std::vector<double> depths;
+      for (int i = 0; i < 6; ++i) depths.push_back(deepest * (i + share(random)) / 6);
+      const SpeedLimits at = speed_limits(c, n_rpm, deepest, depths);
+      ASSERT_FALSE(at.searched_mm) << modes << " " << helix_deg;
+      for (std::size_t i = 0; i < depths.size(); ++i)
+        EXPECT_EQ(at.unstable[i], multipliers(c, n_rpm, depths[i]).unstable)
+            << modes << " " << helix_deg << " " << depths[i];
+      for (const Crossing& x : at.crossings) {
+        EXPECT_LT(x.relative_error, 1e-8);
+        for (const double beside : {1 - 1e-6, 1 + 1e-6})
+          EXPECT_EQ(multipliers(c, n_rpm, beside * x.ap_mm).unstable > 0,
+                    (beside > 1) == x.loss);
+        ++lost;
+      }
+    }
+  EXPECT_GT(lost, 8);
 }
 
 TEST(Cutter, WallIsThatOfTheSimulation) {

@@ -1,4 +1,6 @@
 #pragma once
+#include <cmath>
+
 #include "turnwright/base/units.hpp"
 #include "turnwright/chatter/system.hpp"
 
@@ -21,6 +23,16 @@ inline System benchmark(Directions directions, const Engagement& cut) {
            .exit_rad = cut.exit_rad,
            .force = LinearForce{.Kt_MPa = 600, .Kn_MPa = 200}};
   if (directions == Directions::two) s.modes.push_back(benchmark_mode(Axis::y));
+  return s;
+}
+
+/// The benchmark's cutter with modes 15 % apart on x and y in turn.
+inline System many_modes(int modes, const Engagement& cut) {
+  System s = benchmark(Directions::one, cut);
+  for (int i = 1; i < modes; ++i) {
+    s.modes.push_back(benchmark_mode(i % 2 == 0 ? Axis::x : Axis::y));
+    s.modes.back().wn_rad_s *= std::pow(1.15, i);
+  }
   return s;
 }
 

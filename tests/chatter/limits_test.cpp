@@ -135,6 +135,37 @@ TEST(Limits, ScaleWithTimeAndStiffness) {
   EXPECT_NEAR(b / a, 7, 1e-9);
 }
 
+// The samples of f and the product of its polynomials have nothing in common but the
+// intervals.
+TEST(Limits, SeriesFromSamplesIsThatOfThePolynomials) {
+  for (const auto directions : {Directions::one, Directions::two})
+    for (const double n_rpm : {6000.0, 15000.0}) {
+      const System s = benchmark(directions, down_milling(0.2));
+      const Characteristic f(s, n_rpm, kFine);
+      constexpr double kDeepest = 3, kNoise = 1e-7;
+      const auto exact =
+          series(propagator(s, f.arcs(), n_rpm, kDeepest, kFine), kDeepest);
+      const auto sampled = sampled_series(f, kDeepest, kNoise);
+      ASSERT_TRUE(exact && sampled);
+      EXPECT_GT(sampled->noise(0), 0);
+      EXPECT_LT(sampled->noise(kDeepest), kNoise);
+      for (int i = 0; i < 50; ++i) {
+        const auto z = std::polar(i % 5 / 4.0, 0.7 * i),
+                   kappa = std::polar(kDeepest * (i % 7) / 6, 1.1 * i);
+        EXPECT_LE(std::abs(value(*exact, z, kappa).f - value(*sampled, z, kappa).f),
+                  sampled->noise(kDeepest) + exact->noise(kDeepest));
+      }
+    }
+}
+
+TEST(Limits, SeriesFromSamplesEndsWhereRoundingDrownsIt) {
+  const System s = many_modes(3, down_milling(1));
+  const Characteristic f(s, 8000, kFine);
+  EXPECT_TRUE(sampled_series(f, 0.5, 1e-7));
+  EXPECT_FALSE(sampled_series(f, 0.5, 1e-13));
+  EXPECT_FALSE(sampled_series(f, 50, 1e-7));
+}
+
 /// A turning tool: one mode under a constant factor.
 System turning(double zeta, double K_MPa) {
   return {.modes = {{.axis = Axis::x, .wn_rad_s = 600, .zeta = zeta, .k_N_mm = 5000}},
@@ -236,6 +267,9 @@ TEST(Limits, AgreeWithADenseGridOfCounts) {
                {benchmark(Directions::one, down_milling(1)), 2},
                {benchmark(Directions::two, down_milling(0.1)), 4},
                {benchmark(Directions::two, down_milling(1)), 0.3},
+               {many_modes(3, down_milling(0.1)), 2},
+               {many_modes(4, up_milling(0.4)), 0.6},
+               {many_modes(6, down_milling(0.1)), 1},
                {slot_cutter(), 60}};
   for (const auto& c : cases)
     for (int i = 0; i < speeds; ++i) {

@@ -204,7 +204,7 @@ TEST(RandomCutters, StableAsFarAsSearchedIsUndecidedAbove) {
   q.cutter = stubborn();
   q.system = q.cutter->system;
   q.ap_max_mm = 1;
-  q.work = 5.5e9;
+  q.work = 3.6e9;
   q.speeds_rpm = {12000};
   const StabilityChart chart = stability_chart(q);
   EXPECT_TRUE(chart.speeds.empty());

@@ -17,6 +17,10 @@ inline constexpr double kSearchWork = 2e11;
 /// ranges 1e-5; the tail counts as noise (characteristic_interpolant.hpp).  The search for
 /// crossings is made on that function, so that islands are not missed.
 ///
+/// Edges that have a helix and none of the other options have one delay; the characteristic
+/// function is then the series of propagator.hpp in 1 - z at each depth, without
+/// multipliers, where that series is precise.
+///
 /// If the teeth differ a multiplier may be 1: `fold`.  Turning, with or without
 /// indentation, is computed in closed form, see turning.hpp.
 ///

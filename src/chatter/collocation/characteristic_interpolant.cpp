@@ -1,6 +1,7 @@
 #include "characteristic_interpolant.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -10,6 +11,7 @@ namespace {
 constexpr std::size_t kPowers = 120;  // of z at most
 constexpr double kRounding = 1e-13;   // of f, relative to sum |d_l|
 constexpr double kBeyond = 1.1;       // largest |t| needed, because boxes overlap
+constexpr double kLebesgue = 4;  // growth of errors from 17 samples to the interpolant
 
 /// d_l of (1); the multipliers come in conjugate pairs.
 std::vector<double> coefficients(const std::vector<Complex>& multipliers) {
@@ -34,18 +36,22 @@ int outside(const std::vector<Complex>& multipliers) {
       std::ranges::count_if(multipliers, [](Complex mu) { return std::norm(mu) > 1; }));
 }
 
+constexpr std::size_t kMostTerms = 17;
+
 /// T_k and its first three derivatives by t at one t.
 struct Chebyshev {
-  std::vector<double> T, T1, T2, T3;
+  std::array<double, kMostTerms> T{1}, T1{}, T2{}, T3{};
 };
 
 Chebyshev chebyshev(std::size_t terms, double t) {
-  Chebyshev c{{1, t}, {0, 1}, {0, 0}, {0, 0}};
+  Chebyshev c;
+  c.T[1] = t;
+  c.T1[1] = 1;
   for (std::size_t k = 1; k + 1 < terms; ++k) {
-    c.T.push_back(2 * t * c.T[k] - c.T[k - 1]);
-    c.T1.push_back(2 * c.T[k] + 2 * t * c.T1[k] - c.T1[k - 1]);
-    c.T2.push_back(4 * c.T1[k] + 2 * t * c.T2[k] - c.T2[k - 1]);
-    c.T3.push_back(6 * c.T2[k] + 2 * t * c.T3[k] - c.T3[k - 1]);
+    c.T[k + 1] = 2 * t * c.T[k] - c.T[k - 1];
+    c.T1[k + 1] = 2 * c.T[k] + 2 * t * c.T1[k] - c.T1[k - 1];
+    c.T2[k + 1] = 4 * c.T1[k] + 2 * t * c.T2[k] - c.T2[k - 1];
+    c.T3[k + 1] = 6 * c.T2[k] + 2 * t * c.T3[k] - c.T3[k - 1];
   }
   return c;
 }
@@ -60,12 +66,14 @@ double extremum(std::size_t i, std::size_t n) {
 // d_k = 2/n sum'' f(t_i) T_k(t_i), the first and the last halved; Clenshaw and Curtis.
 std::vector<double> series_of(const Samples& samples, std::size_t l) {
   const std::size_t n = samples.size() - 1;
+  std::array<double, 2 * kMostTerms> extrema;
+  for (std::size_t i = 0; i < 2 * n; ++i) extrema[i] = extremum(i, n);
   std::vector<double> out(n + 1);
   for (std::size_t k = 0; k <= n; ++k) {
     double sum = 0;
     for (std::size_t i = 0; i <= n; ++i) {
       const double f = l < samples[i].size() ? samples[i][l] : 0;
-      sum += (i == 0 || i == n ? 0.5 : 1) * f * extremum(i * k % (2 * n), n);
+      sum += (i == 0 || i == n ? 0.5 : 1) * f * extrema[i * k % (2 * n)];
     }
     out[k] = (k == 0 || k == n ? 1 : 2) * sum / static_cast<double>(n);
   }
@@ -74,12 +82,17 @@ std::vector<double> series_of(const Samples& samples, std::size_t l) {
 
 }  // namespace
 
+DepthSample depth_sample(const std::vector<Complex>& multipliers) {
+  return {.d = coefficients(multipliers), .noise = 0, .outside = outside(multipliers)};
+}
+
 std::optional<CharacteristicInterpolant> CharacteristicInterpolant::sampled(
-    const MultipliersAt& multipliers, double from_mm, double to_mm, double tail) {
+    const SampleAt& sample, double from_mm, double to_mm, double tail) {
   CharacteristicInterpolant out;
   out.middle_ = (from_mm + to_mm) / 2;
   out.half_ = (to_mm - from_mm) / 2;
   Samples samples;
+  double noise = 0;
   for (const std::size_t n : {8u, 16u}) {
     Samples finer;
     for (std::size_t i = 0; i <= n; ++i) {
@@ -90,10 +103,11 @@ std::optional<CharacteristicInterpolant> CharacteristicInterpolant::sampled(
       const double w = i == 0   ? to_mm
                        : i == n ? from_mm
                                 : out.middle_ + out.half_ * extremum(i, n);
-      const auto found = multipliers(w);
-      if (i == 0) out.above_ = outside(found);
-      if (i == n) out.below_ = outside(found);
-      finer.push_back(coefficients(found));
+      DepthSample found = sample(w, i == 0 || i == n);
+      if (i == 0) out.above_ = found.outside.value();
+      if (i == n) out.below_ = found.outside.value();
+      noise = std::max(noise, found.noise);
+      finer.push_back(std::move(found.d));
     }
     samples = std::move(finer);
 
@@ -118,10 +132,12 @@ std::optional<CharacteristicInterpolant> CharacteristicInterpolant::sampled(
       dropped += size_of(series.back());
       series.pop_back();
     }
+    if (series.size() > kPowers) return std::nullopt;
     out.powers_ = series.size();
     out.terms_ = n + 1;
-    for (const auto& d : series) out.d_.insert(out.d_.end(), d.begin(), d.end());
-    out.noise_ = left + dropped + kRounding * scale;
+    for (std::size_t k = 0; k <= n; ++k)
+      for (const auto& d : series) out.d_.push_back(d[k]);
+    out.noise_ = left + dropped + kRounding * scale + kLebesgue * noise;
     double weighted = 0, all = 0;
     for (std::size_t l = 0; l < series.size(); ++l) {
       weighted += static_cast<double>(l) * size_of(series[l]);
@@ -147,23 +163,24 @@ std::optional<CharacteristicInterpolant> CharacteristicInterpolant::sampled(
 Local CharacteristicInterpolant::at(const Box& box, Complex u) const {
   const double t = (box.w - middle_) / half_;
   const Chebyshev c = chebyshev(terms_, t);
-  Complex power = std::pow(std::conj(u), shift_);
+  std::array<double, kPowers> value{}, slope{}, curve{};  // d_l and its derivatives
+  for (std::size_t k = 0; k < terms_; ++k)
+    for (std::size_t l = 0; l < powers_; ++l) {
+      const double d = d_[k * powers_ + l];
+      value[l] += d * c.T[k];
+      slope[l] += d * c.T1[k];
+      curve[l] += d * c.T2[k];
+    }
+  Complex power = phase(box.theta);
   Complex g, g_t, g_tt, g_e, g_te, g_ee;  // e: weighted by l - s
   for (std::size_t l = 0; l < powers_; ++l, power *= u) {
-    const double* d = &d_[l * terms_];
-    double value = 0, slope = 0, curve = 0;
-    for (std::size_t k = 0; k < terms_; ++k) {
-      value += d[k] * c.T[k];
-      slope += d[k] * c.T1[k];
-      curve += d[k] * c.T2[k];
-    }
     const double e = static_cast<double>(l) - shift_;
-    g += value * power;
-    g_t += slope * power;
-    g_tt += curve * power;
-    g_e += e * value * power;
-    g_te += e * slope * power;
-    g_ee += e * e * value * power;
+    g += value[l] * power;
+    g_t += slope[l] * power;
+    g_tt += curve[l] * power;
+    g_e += e * value[l] * power;
+    g_te += e * slope[l] * power;
+    g_ee += e * e * value[l] * power;
   }
   const double a = box.w_half / half_, b = box.theta_half;
   const double tt = modulus(g_tt) + most_.TTT * a + most_.TTU * b,

@@ -7,8 +7,17 @@
 
 namespace turnwright::chatter {
 
-/// Multipliers of a cut by its depth, without those too small to matter.
-using MultipliersAt = std::function<std::vector<Complex>(double w_mm)>;
+/// The characteristic function f(z) = sum_l d_l z^l of a cut at one depth.
+struct DepthSample {
+  std::vector<double> d;
+  double noise = 0;                 ///< bound of the errors of f for |z| <= 1
+  std::optional<int> outside = {};  ///< multipliers outside the unit circle
+};
+/// By all multipliers but those too small to matter.
+DepthSample depth_sample(const std::vector<Complex>& multipliers);
+
+/// `counted` where the multipliers outside are wanted, too.
+using SampleAt = std::function<DepthSample(double w_mm, bool counted)>;
 
 /// Interpolant of the characteristic function of a delayed motion
 ///
@@ -24,8 +33,9 @@ using MultipliersAt = std::function<std::vector<Complex>(double w_mm)>;
 class CharacteristicInterpolant {
  public:
   /// None if 17 depths leave a tail above `tail` of sum_l |d_l|.
-  static std::optional<CharacteristicInterpolant> sampled(
-      const MultipliersAt& multipliers, double from_mm, double to_mm, double tail);
+  static std::optional<CharacteristicInterpolant> sampled(const SampleAt& sample,
+                                                          double from_mm, double to_mm,
+                                                          double tail);
 
   double from_mm() const { return middle_ - half_; }
   double to_mm() const { return middle_ + half_; }
@@ -33,8 +43,10 @@ class CharacteristicInterpolant {
   int unstable_at_from() const { return below_; }
   int unstable_at_to() const { return above_; }
 
-  /// Bound of the errors of f: the tail of (2) and rounding.
+  /// Bound of the errors of f: the tail of (2), rounding and the noise of the samples.
   double noise() const { return noise_; }
+  /// g over f at an angle.
+  Complex phase(double theta) const { return std::polar(1.0, shift_ * theta); }
 
   /// g = e^(i s theta) f(e^(-i theta), w) over a box, as in taylor_patch.hpp, with the
   /// integer s for which the argument of g varies slowly.
@@ -45,7 +57,7 @@ class CharacteristicInterpolant {
   int below_ = 0, above_ = 0;
   std::size_t powers_ = 0, terms_ = 0;  // of z, of Chebyshev's series
   double shift_ = 0;                    // s
-  std::vector<double> d_;               // d_lk, [l * terms_ + k]
+  std::vector<double> d_;               // d_lk, [k * powers_ + l]
   /// Bounds on derivatives of g by t (T) and theta (U) on all of the interpolant.
   struct Bounds {
     double TTT = 0, TTU = 0, TUU = 0, UUU = 0;

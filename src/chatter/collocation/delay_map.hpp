@@ -42,6 +42,8 @@ inline constexpr std::array kFiner{Fineness{12, 1e-13}, Fineness{9, 1e-14},
 ///
 ///     2 (phase/2)^p / p! <= error                                                   (4)
 ///
+/// M_0 is never formed: a motion is followed from piece to piece, with few numbers for each
+/// delay.
 /// Source: derived here; checked in cutter_test against a direct simulation with the edge
 /// cut into slices.
 class DelayMap {
@@ -75,28 +77,34 @@ class DelayMap {
   Eigen::Index unknowns() const { return size_; }
 
   /// Displacement in the stable periodic motion forced by the feed.
-  class Forced {
-   public:
-    std::array<double, 2> displacement_mm(double angle_rad) const;
-
-   private:
-    friend class DelayMap;
-    const DelayMap* map_ = nullptr;
-    Eigen::VectorXd x_;
-  };
+  class Forced;
   Forced forced() const;
 
  private:
   using Matrix = Eigen::MatrixXd;
+  /// What of the forces at a piece's nodes follows from the motion in a piece by (1): by
+  /// the state at its beginning and the forces at its nodes.
+  struct Link {
+    std::size_t piece = 0;
+    Matrix by_state, by_force;
+  };
+  /// The parts of (1) at a time of a piece, one row for each axis used.
+  struct Rows {
+    Matrix by_state, by_force, rate_by_state, rate_by_force;
+  };
   struct Piece {
     double begin_s = 0, length_s = 0;
     const Quadrature* rule = nullptr;  // none: free flight
-    Eigen::Index first = 0;            // unknown: axis by axis, node by node
-    Matrix state;                      // u(begin) by the unknowns before `first`
+    Eigen::Index first = 0, size = 0;  // unknowns: axis by axis, node by node
+    Matrix to_end, push;               // u(end) by u(begin) and by the forces
+    Eigen::PartialPivLU<Matrix> own;  // of the equations (2) at the nodes by their forces
+    Matrix by_state;                  // of the same by u(begin)
+    std::vector<Link> earlier, before;  // delayed motion, in this period and before it
   };
-  /// Rows of (1) by the unknowns, one for each axis used.
-  struct Rows {
-    Matrix q, rate;
+  /// A solution of M_0 x = r, one column for each right side.
+  struct Motion {
+    std::vector<Matrix> states;  // at the beginning of each piece
+    Matrix end, forces;
   };
 
   double turns(const CutterEngagement& contact) const;
@@ -105,14 +113,23 @@ class DelayMap {
   std::vector<double> longest(double n_rpm, const Range& range) const;
   void lay_out(double turns, const std::vector<double>& longest,
                const Fineness& fineness);
-  void connect();
-  void assemble();
-  Rows rows_at(const Piece& piece, double offset_s) const;
-  Rows rows_at(double time_s) const;
-  /// (M_0^-1)_W.  M_0 is block lower triangular by pieces, for no force depends on a
-  /// later one.
-  Matrix inverse_columns() const;
+  void connect(Piece& piece) const;
+  void assemble(std::size_t at);
+  Rows rows_at(const Piece& piece, double offset_s, bool with_rate) const;
+  /// The same at the nodes; alike for pieces as long as others.
+  const std::vector<Rows>& rows_at_nodes(const Piece& piece);
+  /// The piece of a time of the period.
+  std::size_t piece_at(double time_s) const;
+  /// M_0 is block lower triangular by pieces, for no force depends on a later one.
+  /// @param columns  those of the first that are not 0 up to an unknown.
+  template <class Columns>
+  Motion follow(const Matrix& right, Columns columns) const;
+  /// -M_1,W x: what the motion hands to the next period.
+  Matrix handed_on(const Motion& motion) const;
+  /// Ones in the rows W.
+  Matrix units() const;
   Matrix map() const;  // of (3)
+  double work_of_map() const;
   /// A block of `load` between the axes used.
   Matrix between_axes(const Directional& h) const;
 
@@ -123,10 +140,24 @@ class DelayMap {
   std::array<Eigen::Index, 2> row_of_axis_{-1, -1};
   Eigen::Index states_ = 0, axes_ = 0, size_ = 0;
   std::vector<Piece> pieces_;
-  Matrix last_;  // u(end)
-  Matrix m0_, m1_;
-  std::vector<Eigen::Index> delayed_;  // rows of m1_
+  std::vector<Eigen::Index> delayed_;  // rows W
+  struct NodeRows {
+    double length_s = 0;
+    const Quadrature* rule = nullptr;
+    std::vector<Rows> rows;
+  };
+  std::vector<NodeRows> node_rows_;  // while the equations are made
   Eigen::VectorXd fed_;
+};
+
+class DelayMap::Forced {
+ public:
+  std::array<double, 2> displacement_mm(double angle_rad) const;
+
+ private:
+  friend class DelayMap;
+  const DelayMap* map_ = nullptr;
+  Motion motion_;
 };
 
 inline constexpr Eigen::Index kMostUnknowns = 1800;  // 100 MB

@@ -32,14 +32,15 @@ Receptance receptance(const System& system) {
 
 double seconds_per_rad(double n_rpm) { return 60 / (2 * units::kPi * n_rpm); }
 
-double largest_factor_MPa(const System& system, double n_rpm, const Arc& arc) {
+double largest_factor_MPa(const System& system, double n_rpm, const ArcLoad& load) {
+  const Arc& arc = load.arc;
   if (arc.offsets_rad.empty()) return 0;
   constexpr int kSamples = 16;
   double largest = 0;
   for (int i = 0; i <= kSamples; ++i) {
     const double angle =
         arc.begin_rad + (arc.end_rad - arc.begin_rad) * i / double{kSamples};
-    const Directional h = directional_MPa(system, n_rpm, arc, angle);
+    const Directional h = load.h_MPa(system, n_rpm, angle);
     largest = std::max(
         {largest, std::abs(h.xx) + std::abs(h.xy), std::abs(h.yx) + std::abs(h.yy)});
   }
@@ -105,7 +106,7 @@ class Stretcher {
     const Arc& arc = load.arc;
     const double length = load.length_s;
     if (arc.offsets_rad.empty()) {
-      out_.all.back().flight_s = length;
+      out_.all.back().flight_s += length;
       return;
     }
     const Receptance r = receptance(system_);
@@ -143,8 +144,8 @@ class Stretcher {
       Stretch stretch{.kernel = out_.kernels.size() - 1,
                       .h = std::vector<Directional>(t.size())};
       for (std::size_t k = 0; k < t.size(); ++k)
-        stretch.h[k] = directional_MPa(
-            system_, n_rpm_, arc, arc.begin_rad + (i * piece + t[k]) / seconds_per_rad_);
+        stretch.h[k] = load.h_MPa(system_, n_rpm_,
+                                  arc.begin_rad + (i * piece + t[k]) / seconds_per_rad_);
       out_.all.push_back(std::move(stretch));
     }
   }
@@ -198,12 +199,39 @@ class Stretcher {
 
 }  // namespace
 
+Directional ArcLoad::h_MPa(const System& system, double n_rpm, double angle_rad) const {
+  return helical ? helical->load(angle_rad).regenerative.front()
+                 : directional_MPa(system, n_rpm, arc, angle_rad);
+}
+
 std::vector<ArcLoad> arc_loads(const System& system, double n_rpm) {
   std::vector<ArcLoad> out;
-  for (const Arc& arc : arcs(system))
-    out.push_back({.arc = arc,
-                   .length_s = (arc.end_rad - arc.begin_rad) * seconds_per_rad(n_rpm),
-                   .largest_MPa = largest_factor_MPa(system, n_rpm, arc)});
+  for (const Arc& arc : arcs(system)) {
+    out.push_back(
+        {.arc = arc, .length_s = (arc.end_rad - arc.begin_rad) * seconds_per_rad(n_rpm)});
+    out.back().largest_MPa = largest_factor_MPa(system, n_rpm, out.back());
+  }
+  return out;
+}
+
+std::vector<ArcLoad> helical_arc_loads(const Cutter& cutter, double n_rpm, double ap_mm) {
+  const auto contact = std::make_shared<const CutterEngagement>(cutter, n_rpm, ap_mm);
+  const std::vector<double> breaks = contact->breaks();
+  std::vector<ArcLoad> out;
+  for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
+    ArcLoad load{
+        .arc = {.begin_rad = breaks[i], .end_rad = breaks[i + 1], .offsets_rad = {}},
+        .length_s = (breaks[i + 1] - breaks[i]) * seconds_per_rad(n_rpm),
+        .largest_MPa = 0,
+        .helical = contact};
+    if (contact->cuts((breaks[i] + breaks[i + 1]) / 2)) load.arc.offsets_rad = {0};
+    load.largest_MPa = largest_factor_MPa(cutter.system, n_rpm, load);
+    out.push_back(std::move(load));
+  }
+  // Free flight follows a cut.
+  const auto first = std::ranges::find_if(
+      out, [](const ArcLoad& load) { return !load.arc.offsets_rad.empty(); });
+  std::rotate(out.begin(), first, out.end());
   return out;
 }
 

@@ -1,7 +1,9 @@
 #pragma once
 #include <array>
+#include <memory>
 #include <vector>
 
+#include "chatter/model/engagement.hpp"
 #include "chatter/model/free_vibration.hpp"
 #include "turnwright/chatter/system.hpp"
 
@@ -12,10 +14,17 @@ struct ArcLoad {
   Arc arc;
   double length_s = 0;
   double largest_MPa = 0;  ///< largest row sum of moduli of the directional factors
+  std::shared_ptr<const CutterEngagement> helical = {};  ///< null for straight edges
+  /// The directional factors at an angle of the arc.
+  Directional h_MPa(const System& system, double n_rpm, double angle_rad) const;
 };
 
 /// The arcs of a system at one spindle speed.
 std::vector<ArcLoad> arc_loads(const System& system, double n_rpm);
+
+/// The same of helical edges with one delay at one depth of cut.  Their directional factors
+/// are integrals over the height [N/mm], so that kappa = 1 - z for this depth has no unit.
+std::vector<ArcLoad> helical_arc_loads(const Cutter& cutter, double n_rpm, double ap_mm);
 
 /// Resolution of a propagator.  The phase of the integrands changes by 2 `phase_rad` at
 /// most in a collocation interval, and the number of nodes p is chosen so that

@@ -6,6 +6,9 @@
 #include <limits>
 #include <utility>
 
+#include "rim_samples.hpp"
+#include "turnwright/base/units.hpp"
+
 namespace turnwright::chatter {
 namespace {
 
@@ -144,7 +147,25 @@ double Series::noise(double kappa_abs) const {
     return sum;
   };
   const double bound = at(size);
-  return rounding * (1 + bound * (1 + (states() == 2 ? 0 : bound + at(minors))));
+  return sampling +
+         rounding * (1 + bound * (1 + (states() == 2 ? 0 : bound + at(minors))));
+}
+
+// Horner's rule in kappa/radius = s (1 - z).
+std::vector<double> by_powers(const Series& series, double w_mm) {
+  const double s = w_mm / series.radius_mm;
+  std::vector<double> out;
+  for (std::size_t i = 0; i < series.c.size(); ++i) {
+    const std::vector<double>& c = series.c[i];
+    std::vector<double> p(c.size(), 0);
+    for (std::size_t j = c.size(); j-- > 0;) {
+      for (std::size_t l = c.size() - 1; l > 0; --l) p[l] = s * (p[l] - p[l - 1]);
+      p[0] = s * p[0] + c[j];
+    }
+    if (out.size() < i + p.size()) out.resize(i + p.size(), 0);
+    for (std::size_t l = 0; l < p.size(); ++l) out[i + l] += p[l];
+  }
+  return out;
 }
 
 SeriesValue value(const Series& series, std::complex<double> z,
@@ -193,17 +214,81 @@ std::optional<Series> series(const Propagator& propagator, double kappa_max_mm) 
   return out;
 }
 
-std::optional<DeepSeries> series_up_to(const System& system,
-                                       const std::vector<ArcLoad>& arcs, double n_rpm,
-                                       double ap_max_mm) {
+namespace {
+
+/// Coefficients from samples at e^(i pi s/n), s = 0 .. n, of the rim; Phi is real for real
+/// kappa, so that the other half mirrors them.
+std::optional<Series> from_samples(const std::vector<Coefficients>& samples,
+                                   double radius_mm) {
+  const std::size_t n = samples.size() - 1, m = samples.front().c.size() - 1;
+  const auto roots = unit_roots(2 * n);
+  Series out{.radius_mm = radius_mm, .c = {}, .size = {}, .minors = {}};
+  out.c.assign(m + 1, Poly(2 * n));
+  out.c[0] = {1};
+  out.c[m] = {samples.front().c[m].real()};
+  std::vector<double> size(2 * n, 0);
+  size[0] = 1 + out.c[m][0];
+  for (std::size_t i = 1; i < m; ++i)
+    for (std::size_t j = 0; j < 2 * n; ++j) {
+      double sum = 0;
+      for (std::size_t s = 0; s <= n; ++s) {
+        const Complex& x = samples[s].c[i];
+        const Complex& root = roots[s * j % (2 * n)];
+        sum += (s == 0 || s == n ? 0.5 : 1) *
+               (x.real() * root.real() + x.imag() * root.imag());
+      }
+      out.c[i][j] = sum / static_cast<double>(n);
+      size[j] += std::abs(out.c[i][j]);
+    }
+  const auto kept = resolved(size);
+  if (!kept) return std::nullopt;
+  for (std::size_t i = 1; i < m; ++i) out.c[i].resize(kept->terms);
+  out.sampling = kept->noise;
+  return out;
+}
+
+}  // namespace
+
+std::optional<Series> sampled_series(const Characteristic& f, double kappa_max_mm,
+                                     double noise) {
+  constexpr double kFarBelow = 1e-2;  // of the noise accepted: not worth more samples
+  const double rim = kappa_max_mm * (1 + 1e-9);
+  const auto sample = [&](std::size_t s, std::size_t n) {
+    return f.at(kappa_max_mm * std::polar(1.0, units::kPi * static_cast<double>(s) /
+                                                   static_cast<double>(n)),
+                rim);
+  };
+  std::vector<Coefficients> samples{sample(0, 1), sample(1, 1)};
+  for (const Coefficients& end : samples) {
+    double size = 0;
+    for (const Complex& c : end.c) size += std::abs(c);
+    if (end.log_scale > 0 || !(kRounding * size < noise)) return std::nullopt;
+  }
+  for (std::size_t n = 2; n <= kSeriesTerms / 2; n *= 2) {
+    std::vector<Coefficients> finer;
+    for (std::size_t s = 0; s <= n; ++s)
+      finer.push_back(s % 2 == 0 ? std::move(samples[s / 2]) : sample(s, n));
+    samples = std::move(finer);
+    if (n < 8) continue;
+    auto series = from_samples(samples, kappa_max_mm);
+    const bool last = n > kSeriesTerms / 4;
+    if (series && series->sampling < (last ? 1 : kFarBelow) * noise) return series;
+  }
+  return std::nullopt;
+}
+
+std::optional<DeepSeries> series_up_to(const Characteristic& f, double ap_max_mm,
+                                       double most_growth) {
   constexpr double kReach = 2.2;     // kappa over depth, with room for boxes at the edge
-  constexpr double kGrowth = 100;    // by `growth`: beyond it no series is precise enough
   constexpr double kPrecise = 1e-7;  // noise accepted
-  if (system.modes.size() > 2) return std::nullopt;
+  const bool few = f.system().modes.size() <= 2;
   for (double w = ap_max_mm; w > 1e-6 * ap_max_mm; w /= 2) {
     const double kappa_max = kReach * w;
-    if (growth(system, arcs, kappa_max) > kGrowth) continue;
-    auto made = series(propagator(system, arcs, n_rpm, kappa_max, kFine), kappa_max);
+    if (f.growth(kappa_max) > most_growth) continue;
+    auto made =
+        few ? series(propagator(f.system(), f.arcs(), f.n_rpm(), kappa_max, kFine),
+                     kappa_max)
+            : sampled_series(f, kappa_max, kPrecise);
     while (made && w > 1e-6 * ap_max_mm) {
       if (made->noise(kReach * w) < kPrecise) return DeepSeries{std::move(*made), w};
       w /= 2;

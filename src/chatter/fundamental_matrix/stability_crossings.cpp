@@ -61,7 +61,7 @@ class Patches {
     constexpr double kWide = 8;  // terms that matter across the disc
     const double share = disc.radius / series_->radius_mm;
     if (modulus(disc.centre) + disc.radius > series_->radius_mm ||
-        share * static_cast<double>(series_->size.size()) > kWide)
+        share * static_cast<double>(series_->terms()) > kWide)
       return std::nullopt;
     return Patch::of(*series_, disc, rho_);
   }
@@ -225,11 +225,15 @@ std::vector<OnCircle> on_circle(const Series& series, const Characteristic& coar
 
 namespace {
 
-/// The change of the argument of g along the half circle, chord by chord.
+/// The change of the argument of g along the half circle, chord by chord.  Where chords meet
+/// their ends may differ by the noise of their patches.
 class Winding {
  public:
   Winding(const Patches& patches, double w, double rho)
       : patches_(patches), w_(w), rho_(rho) {}
+
+  /// Bound of what the noise may have added to the angle.
+  double slack() const { return slack_; }
 
   /// The change of the argument of g over [0, pi].
   double angle() {
@@ -252,8 +256,12 @@ class Winding {
       const Local g = patch->at(box, u);
       const Complex E = g.g_theta * box.theta_half;
       const double rest = g.tt * box.theta_half * box.theta_half / 2 + patch->noise();
-      if (distance(g.g, E) > rest)
-        return std::arg(end(*patch, box, +1) / end(*patch, box, -1));
+      if (distance(g.g, E) > rest) {
+        const Complex from = end(*patch, box, -1), to = end(*patch, box, +1);
+        slack_ +=
+            kPi / 2 * patch->noise() * (1 / modulus(from) + 1 / modulus(to));  // > asin
+        return std::arg(to / from);
+      }
     }
     const Patch* next = patch ? patch : (above && !own ? above : nullptr);
     const double half = box.theta_half / 2;
@@ -267,16 +275,17 @@ class Winding {
   }
 
   Patches patches_;
-  double w_, rho_;
+  double w_, rho_, slack_ = 0;
   std::size_t boxes_ = 0;
 };
 
 // z runs clockwise, and the lower half mirrors the upper; u^(-m/2) has turned g by m/2
 // half turns.
-int whole_turns(double angle, std::size_t m) {
-  const double turns = static_cast<double>(m / 2) - angle / kPi,
+int whole_turns(Winding winding, std::size_t m) {
+  constexpr double kRounding = 1e-3, kUnambiguous = 1;  // rad, far below half a turn
+  const double turns = static_cast<double>(m / 2) - winding.angle() / kPi,
                whole = std::round(turns);
-  if (!(std::abs(turns - whole) < 1e-3))
+  if (!(std::abs(turns - whole) < kRounding || winding.slack() < kUnambiguous))
     throw ModelRangeError(tr(kOnCircle));  // the chords' angles are only rounding
   return static_cast<int>(whole);
 }
@@ -284,11 +293,11 @@ int whole_turns(double angle, std::size_t m) {
 }  // namespace
 
 int multipliers_outside(const Characteristic& f, double w_mm, double rho) {
-  return whole_turns(Winding(Patches(f, rho), w_mm, rho).angle(), f.states());
+  return whole_turns(Winding(Patches(f, rho), w_mm, rho), f.states());
 }
 
 int multipliers_outside(const Series& series, double w_mm) {
-  return whole_turns(Winding(Patches(series), w_mm, 1).angle(), series.states());
+  return whole_turns(Winding(Patches(series), w_mm, 1), series.states());
 }
 
 }  // namespace turnwright::chatter

@@ -5,31 +5,23 @@
 #include <cmath>
 #include <span>
 
-#include "turnwright/base/units.hpp"
+#include "rim_samples.hpp"
 
 namespace turnwright::chatter {
 namespace {
 
 constexpr std::size_t kSamples = 32;
-constexpr double kTail = 1e-13;      // of the series, relative to its largest term
-constexpr double kFloor = 1e-10;     // the same, where rounding ends the descent
-constexpr double kRounding = 1e-13;  // of a sample, relative to the largest
-constexpr double kUnseen = 1e-2;     // of the noise: terms dropped
-constexpr double kUnfelt = 1e-4;     // of the change over the disc: the same
-constexpr double kPrecise = 1e-7;    // noise accepted, relative to the values
+constexpr double kUnseen = 1e-2;   // of the noise: terms dropped
+constexpr double kUnfelt = 1e-4;   // of the change over the disc: the same
+constexpr double kPrecise = 1e-7;  // noise accepted, relative to the values
 
-const std::vector<Complex>& unit_roots() {
-  static const auto kAll = [] {
-    std::vector<Complex> all;
-    for (std::size_t k = 0; k < kSamples; ++k)
-      all.push_back(std::polar(1.0, 2 * units::kPi * static_cast<double>(k) / kSamples));
-    return all;
-  }();
+const std::vector<Complex>& roots_of_samples() {
+  static const auto kAll = unit_roots(kSamples);
   return kAll;
 }
 
 std::vector<Coefficients> samples(const Characteristic& f, const Disc& disc) {
-  const auto& roots = unit_roots();
+  const auto& roots = roots_of_samples();
   std::vector<Coefficients> out(kSamples);
   // Phi is real for real kappa, so that conjugate samples need not be computed.
   const bool real = disc.centre.imag() == 0;
@@ -89,7 +81,7 @@ Disc disc(const Box& box, Complex u, double rho) {
 std::optional<Patch> Patch::sampled(const Characteristic& f, const Disc& disc,
                                     double rho) {
   const auto values = samples(f, disc);
-  const auto& roots = unit_roots();
+  const auto& roots = roots_of_samples();
   Patch out;
   out.disc_ = disc;
   out.rho_ = rho;
@@ -114,17 +106,10 @@ std::optional<Patch> Patch::sampled(const Characteristic& f, const Disc& disc,
       size[j] += modulus(out.c_[i * kSamples + j]);
     }
   }
-  const double largest = *std::ranges::max_element(size);
-  if (!(largest < 1e300)) return std::nullopt;
-  // If the series has decayed before, the last quarter of its terms is rounding.
-  const double floor = *std::max_element(size.end() - kSamples / 4, size.end());
-  if (!(floor < kFloor * largest)) return std::nullopt;
-  std::size_t terms = kSamples;
-  double tail = 0;
-  while (terms > 3 && size[terms - 1] <= std::max(kTail * largest, 2 * floor))
-    tail += size[--terms];
-  out.keep(terms);
-  out.noise_ = 2 * tail + kSamples * floor + kRounding * largest;
+  const auto kept = resolved(size);
+  if (!kept) return std::nullopt;
+  out.keep(kept->terms);
+  out.noise_ = kept->noise;
   out.bound();
   if (!(out.noise_ < kPrecise * out.scale())) return std::nullopt;
   return out;
@@ -165,7 +150,10 @@ Patch Patch::of(const Series& series, const Disc& disc, double rho) {
     }
   }
   out.noise_ += tail;
-  out.drop(size, std::max(negligible, kUnfelt * size[1]));
+  // Where many multipliers lie together f is far below the sum of its coefficients, and
+  // every term is felt.
+  out.drop(size,
+           series.states() > 4 ? negligible : std::max(negligible, kUnfelt * size[1]));
   out.bound();
   return out;
 }

@@ -30,7 +30,7 @@ struct Local {
 struct Box {
   double w = 0, w_half = 0;
   double theta = 0, theta_half = 0;
-  Complex u() const { return std::polar(1.0, -theta); }
+  Complex u() const { return {std::cos(theta), -std::sin(theta)}; }
 };
 
 /// A disc that contains the kappa of every point of the box; u is that of the box.
