@@ -1,4 +1,7 @@
 // Charts of the benchmark tool beside our own first-order semi-discretisation.
+// Wanted: boundary/0 3 ms, boundary/1 8 ms, boundary/2 10 ms, boundary/3 12 ms,
+// chart/0 15 ms, chart/1 15 ms, chart/2 50 ms, chart/3 50 ms, twenty_speeds/3 5 ms,
+// twenty_speeds/4 15 ms.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -30,7 +33,7 @@ System tool(std::int64_t axes, double immersion) {
 }
 
 constexpr int kSpeeds = 200;
-double speed(int i) { return 5000 + 20000.0 * i / (kSpeeds - 1); }
+double speed(int i, int of = kSpeeds) { return 5000 + 20000.0 * i / (of - 1); }
 
 struct Chart {
   std::int64_t axes;
@@ -60,23 +63,53 @@ void chart(benchmark::State& state) {
 }
 BENCHMARK(chart)->DenseRange(0, 3)->Unit(benchmark::kMillisecond);
 
-/// 20 speeds of a tool with modes 15 % apart on x and y in turn and some teeth, a/D 0.1.
-void twenty_speeds(benchmark::State& state) {
+/// A tool with modes 15 % apart on x and y in turn, a/D 0.1.
+System many_modes(std::int64_t modes, int teeth) {
   System s = tool(1, 0.1);
   const Mode first = s.modes[0];
-  for (std::int64_t i = 1; i < state.range(0); ++i) {
+  for (std::int64_t i = 1; i < modes; ++i) {
     s.modes.push_back(first);
     s.modes.back().axis = i % 2 == 0 ? Axis::x : Axis::y;
     s.modes.back().wn_rad_s *= std::pow(1.15, static_cast<double>(i));
   }
-  s.teeth = static_cast<int>(state.range(1));
+  s.teeth = teeth;
+  return s;
+}
+
+/// 20 speeds of it.
+void limits_of_twenty(benchmark::State& state, int teeth) {
+  const System s = many_modes(state.range(0), teeth);
   constexpr int kFew = 20;
   for (auto _ : state)
     for (int i = 0; i < kFew; ++i)
       benchmark::DoNotOptimize(speed_limits(s, 5000 + 1000.0 * i, 2));
 }
+void twenty_speeds(benchmark::State& state) {
+  limits_of_twenty(state, static_cast<int>(state.range(1)));
+}
 BENCHMARK(twenty_speeds)
     ->ArgsProduct({{1, 2, 3, 4}, {1, 2, 4, 8}})
+    ->Unit(benchmark::kMillisecond);
+
+void modes_growth(benchmark::State& state) { limits_of_twenty(state, 2); }
+BENCHMARK(modes_growth)
+    ->Name("modes/growth")
+    ->DenseRange(1, 6)
+    ->Unit(benchmark::kMillisecond);
+
+/// N speeds of the first chart.
+void speeds_growth(benchmark::State& state) {
+  const Chart& chart = kCharts[0];
+  const System s = tool(chart.axes, chart.immersion);
+  const int all = static_cast<int>(state.range(0));
+  for (auto _ : state)
+    for (int i = 0; i < all; ++i)
+      benchmark::DoNotOptimize(speed_limits(s, speed(i, all), chart.deepest_mm));
+}
+BENCHMARK(speeds_growth)
+    ->Name("speeds/growth")
+    ->RangeMultiplier(2)
+    ->Range(50, 800)
     ->Unit(benchmark::kMillisecond);
 
 /// Ten speeds of a tool of 10 mm with four teeth, a/D 0.1, up to 4 mm, with one or two

@@ -1,5 +1,6 @@
-// The budget of a whole part: ten tolerances, ten sources each, 1e5 draws.  Wanted: 2 s at
-// most, with one thread or two (elapsed time).
+// The budget of a whole part: ten tolerances, ten sources each, 1e5 draws, with one
+// thread or two (elapsed time).
+// Wanted: ten_tolerances 2 s.
 #include <benchmark/benchmark.h>
 
 #include <limits>
