@@ -45,8 +45,8 @@ using MapAt = std::function<DelayMap(double w_mm, const Fineness& fineness)>;
 /// Steps on one map after the other, each finer than the last, at least two and until the
 /// error is too small to matter.  An error by kinks falls at least with the square of the
 /// fineness, so that what is left is below 1.3 steps; 3 are told.  A step may be small by
-/// chance, so the error is at least 0.3 of the step before, and at least 1e-10.  `at` initially has the
-/// error by the noise of the interpolant.
+/// chance, so the error is at least 0.3 of the step before, and at least 1e-10.  `at`
+/// initially has the error by the noise of the interpolant.
 void refine(const MapAt& map_at, double outwards, OnCircle& at) {
   constexpr double kLarge = 5e-9;
   constexpr double kSteps = 3, kByChance = 0.3, kLeast = 1e-10;

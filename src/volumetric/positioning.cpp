@@ -11,7 +11,8 @@
 namespace turnwright::volumetric {
 namespace {
 
-constexpr double kCoverage = 2;  // standard deviations to either side
+constexpr double kCoverage = 2;    // standard deviations to either side
+constexpr double kLong_mm = 2000;  // travel beyond which ISO 230-2 tests otherwise
 
 std::optional<double> mean_of(const std::vector<double>& x) {
   if (x.empty()) return std::nullopt;
@@ -126,11 +127,13 @@ Iso230_2 iso230_2(std::span<const Target> all) {
 }
 
 std::size_t positions_wanted(double travel_mm) {
-  constexpr double kLong_mm = 2000, kInterval_mm = 250, kFive = 5;
+  constexpr double kInterval_mm = 250, kFive = 5;
   const double wanted = travel_mm > kLong_mm ? travel_mm / kInterval_mm + 1
                                              : std::max(kFive, kFive * travel_mm / 1000);
   return static_cast<std::size_t>(std::ceil(wanted - 1e-9));  // rounding of the travel
 }
+
+std::size_t approaches_wanted(double travel_mm) { return travel_mm > kLong_mm ? 1 : 5; }
 
 bool evenly_spaced(std::span<const Target> all) {
   if (all.size() < 3) return false;

@@ -77,6 +77,32 @@ TEST(Limits, OfTheSlotCutterToTheirPrintedDigits) {
   }
 }
 
+// Limits by Taylor series of the motion in arithmetic of 64 binary digits.
+TEST(Limits, ErrorEstimatesCoverTheRoundingOfManyModes) {
+  const Engagement cut = up_milling(0.793);
+  System s{.modes = {{Axis::x, 395.2, 0.052, 7138},
+                     {Axis::y, 738.9, 0.019, 17759},
+                     {Axis::x, 1609, 0.0122, 14709},
+                     {Axis::y, 2135.9, 0.0416, 27327},
+                     {Axis::x, 1552.3, 0.0145, 5840},
+                     {Axis::x, 550.6, 0.0231, 26518}},
+           .teeth = 4,
+           .entry_rad = cut.entry_rad,
+           .exit_rad = cut.exit_rad,
+           .force = LinearForce{.Kt_MPa = 632, .Kn_MPa = 563}};
+  for (Mode& m : s.modes) m.wn_rad_s *= 2 * kPi;
+  const struct {
+    double n_rpm, limit_mm;
+  } rows[] = {{13400, 0.3438818907587579922}, {13500, 0.3260346422301650315},
+              {14200, 0.2720552498758869890}, {14300, 0.2709580725990001537},
+              {14400, 0.2711036361084671015}, {14500, 0.2724509786294689276}};
+  for (const auto& row : rows) {
+    const Crossing first = speed_limits(s, row.n_rpm, 3).crossings.at(0);
+    EXPECT_LE(std::abs(first.ap_mm / row.limit_mm - 1), first.relative_error)
+        << row.n_rpm;
+  }
+}
+
 TEST(Limits, IslandShowsAllItsCrossings) {
   const System s = benchmark(Directions::one, down_milling(0.1));
   const auto crossings = speed_limits(s, 18000, 8).crossings;

@@ -124,6 +124,18 @@ TEST(Stabilisation, WithoutNoiseThePolesAreTheModes) {
   }
 }
 
+// Both poles of a pair are near the one mode that is asked.
+TEST(Stabilisation, AnOrderCountsOnceForAMode) {
+  const FrequencyResponse r =
+      measured({{900, 0.003, 9000}, {908, 0.003, 9000}}, 700, 1100, 400);
+  const Stabilisation s = stabilisation(r, fit(r, 1));
+  const auto stable = [](const DiagramPole& p) { return p.stable == Stable::all; };
+  ASSERT_EQ(std::ranges::count_if(s.orders.back().poles, stable), 2);
+  const auto orders = std::ranges::count_if(
+      s.orders, [&](const auto& o) { return std::ranges::any_of(o.poles, stable); });
+  EXPECT_EQ(s.modes.at(0).orders, orders);
+}
+
 /// The mark of a pole by the definitions, and how many orders it has been stable.
 std::pair<Stable, int> mark(const DiagramPole& p, const std::vector<DiagramPole>& below) {
   std::pair<Stable, int> out{Stable::no, 0};

@@ -150,6 +150,12 @@ TEST(Positioning, PositionsThatAreWanted) {
   EXPECT_EQ(positions_wanted(3000), 13u);
 }
 
+TEST(Positioning, ApproachesThatAreWanted) {
+  EXPECT_EQ(approaches_wanted(300), 5u);
+  EXPECT_EQ(approaches_wanted(2000), 5u);
+  EXPECT_EQ(approaches_wanted(2001), 1u);
+}
+
 TEST(Positioning, EvenIntervalsAreSeen) {
   const auto at = [](std::vector<double> q) {
     AxisTable t{q, std::vector<double>(q.size()), {}};

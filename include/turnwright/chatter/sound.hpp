@@ -56,8 +56,9 @@ struct Heard {
 ///
 /// Neglects: chatter that doubles the period (a flip) of an even number of teeth lies on
 /// harmonics of the spindle and is not heard; neither is chatter that happens to lie within
-/// those ranges.  What sounds above half the rate and is not filtered out before it is sampled
-/// is heard as far below it.  A fan or a pump may be taken for chatter: listen to an idle cut, too.
+/// those ranges.  What sounds above half the rate and is not filtered out before it is
+/// sampled is heard as far below it.  A fan or a pump may be taken for chatter: listen to an
+/// idle cut, too.
 /// Source: derived here, checked in sound_test on simulated sounds.
 /// @throws ModelRangeError if the sound is shorter than 16 revolutions or 0.05 s, or if 16
 ///   revolutions have more than 2^20 samples, the most of a block.

@@ -53,8 +53,8 @@ struct Stabilisation {
 ///
 ///     sum |A(z) Y - B(z)|^2 / s^2 = min,   A = 1 + sum_1^n a_j z^j,  B = sum_0^n b_j z^j (1)
 ///
-/// s is the size of the errors of a line where the response comes with them, else 1.  With P of the rows z^j / s and Q of
-/// -Y z^j / s, b is taken out of the normal equations,
+/// s is the size of the errors of a line where the response comes with them, else 1.  With P
+/// of the rows z^j / s and Q of -Y z^j / s, b is taken out of the normal equations,
 ///
 ///     M a = 0 but in its first row,   M = Q*Q - (P*Q)* (P*P)^-1 P*Q                     (2)
 ///

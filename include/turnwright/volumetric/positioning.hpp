@@ -63,6 +63,10 @@ Iso230_2 iso230_2(std::span<const Target> targets);
 /// every 250 mm on the average.
 std::size_t positions_wanted(double travel_mm);
 
+/// How often ISO 230-2 approaches each position from each side: five times; beyond 2 m once,
+/// without repeatability and accuracy, which it tests over 2 m of such an axis.
+std::size_t approaches_wanted(double travel_mm);
+
 /// Whether three positions or more stand at one interval, but for rounding.  An error that
 /// repeats with this interval, as that of a ball screw's pitch, is then not seen; ISO 230-2
 /// lets the positions vary.

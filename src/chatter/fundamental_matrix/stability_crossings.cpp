@@ -110,15 +110,19 @@ OnCircle newton(const Characteristic& f, OnCircle at, const Slopes& slope) {
 
 // As w rises past the zero, dz/z = -g_w/(z g_z) dw = i g_w/g_theta dw, and ln |mu| = -ln
 // |z| grows by Im(g_w/g_theta) dw.
+// The step between the two propagators may be small by chance, and both round alike; many
+// modes together have lost 3e-13 so.
 OnCircle polished(const Characteristic& coarse, const Characteristic& fine,
                   const Box& zero) {
+  constexpr double kLeast = 1e-11;
   OnCircle at{.w_mm = zero.w, .theta = zero.theta};
   at = newton(coarse, at, slopes(coarse, at.w_mm, at.theta));
   const Slopes slope = slopes(fine, at.w_mm, at.theta);
   const OnCircle best = newton(fine, at, slope);
   const double outwards = cross(slope.theta, slope.w);
   OnCircle out = best;
-  out.relative_error = std::abs(best.w_mm - at.w_mm) / best.w_mm + best.relative_error;
+  out.relative_error =
+      std::max(std::abs(best.w_mm - at.w_mm) / best.w_mm + best.relative_error, kLeast);
   out.change = (outwards > 0 ? 1 : -1) * (out.flip() ? 1 : 2);
   return out;
 }

@@ -176,15 +176,18 @@ double most_negative(const std::vector<FittedMode>& modes) {
 std::vector<SettledMode> settled(const ModalFit& fit,
                                  const std::vector<DiagramOrder>& orders) {
   std::vector<SettledMode> out(fit.modes.size());
-  for (const DiagramOrder& o : orders)
+  for (const DiagramOrder& o : orders) {
+    std::vector<int> here(out.size(), 0);  // two stable poles may be of one mode
     for (const DiagramPole& p : o.poles) {
       const auto mode = p.stable == Stable::all ? mode_of(p, fit) : std::nullopt;
       if (!mode) continue;
       SettledMode& m = out[*mode];
-      ++m.orders;
+      here[*mode] = 1;
       if (!m.from_order && p.in_a_row >= kSettled)
         m.from_order = o.order - p.in_a_row + 1;
     }
+    for (std::size_t i = 0; i < out.size(); ++i) out[i].orders += here[i];
+  }
   const double all = most_negative(fit.modes);
   for (std::size_t i = 0; i < out.size() && out.size() > 1; ++i) {
     auto others = fit.modes;

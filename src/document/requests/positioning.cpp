@@ -1,6 +1,7 @@
 #include "turnwright/document/positioning.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <string>
@@ -24,8 +25,6 @@ using nlohmann::json;
 using nlohmann::ordered_json;
 
 constexpr std::size_t kAxisReadings = 10000;
-constexpr std::size_t kWantedApproaches =
-    5;                                // ISO 230-2, to each position from each side
 constexpr double kNearest_mm = 1e-4;  // of rows, so that they rise in any unit
 const Bounds kAxisPlace = within(-1e5, 1e5, "mm"), kAxisDeviation = within(-1e6, 1e6);
 
@@ -120,6 +119,7 @@ AxisTable read_comp_file(Reader r) {
   AxisTable t;
   const Reader text = r.at("text", tr("the text of a compensation file, or its lines"));
   const char* form = to_translate("three numbers a line: nominal, forward, reverse");
+  const auto problems = text.problems().list.size();
   auto lines = text_lines(text, form);
   while (!lines.empty() && trimmed(lines.back().text).empty()) lines.pop_back();
   const auto refuse = [&](const TextLine& line, const std::string& expected) {
@@ -127,7 +127,7 @@ AxisTable read_comp_file(Reader r) {
                          shown(json(std::string(line.text.substr(0, 80)))), expected,
                          "range"});
   };
-  if (lines.empty() && !text.broken())
+  if (lines.empty() && !text.broken() && text.problems().list.size() == problems)
     text.problem(tr("no row"), tr(form), "count");
   else if (lines.size() > kCompFileRows)
     text.problem(say("{} rows", lines.size()),
@@ -287,11 +287,11 @@ ordered_json lacks_json(const std::vector<Target>& all) {
   if (fewest < 2)
     out.push_back(
         tr("Positions were approached once: repeatability and accuracy are missing."));
-  if (fewest < kWantedApproaches)
+  const double travel = all.back().q_mm - all.front().q_mm;
+  if (const auto wanted = approaches_wanted(travel); fewest < wanted)
     out.push_back(
         say("ISO 230-2 approaches each position {} times from each side; here it is {}.",
-            kWantedApproaches, fewest));
-  const double travel = all.back().q_mm - all.front().q_mm;
+            wanted, fewest));
   if (const auto wanted = positions_wanted(travel); all.size() < wanted)
     out.push_back(say("ISO 230-2 has at least {} positions over {} mm; here are {}.",
                       wanted, number_text(travel), all.size()));
@@ -301,6 +301,25 @@ ordered_json lacks_json(const std::vector<Target>& all) {
             "with it is not seen.",
             number_text(all[1].q_mm - all[0].q_mm)));
   return out;
+}
+
+/// Deviations that change along the axis as those of no axis do.
+void add_doubt_of_slope(const std::vector<PositionValues>& all, ordered_json& out) {
+  constexpr double kSteep = 0.01;      // a hundred times what leadscrews have
+  constexpr double kScatter_mm = 0.1;  // between positions that nearly coincide
+  for (const auto mean : {&PositionValues::mean_plus_mm, &PositionValues::mean_minus_mm})
+    for (std::size_t i = 1; i < all.size(); ++i) {
+      const auto &from = all[i - 1], &to = all[i];
+      if (!(from.*mean) || !(to.*mean)) continue;
+      const double change = std::abs(*(to.*mean) - *(from.*mean)),
+                   length = to.q_mm - from.q_mm;
+      if (change <= kSteep * length + kScatter_mm) continue;
+      out.push_back(say(
+          "The deviation changes by {:.3g} mm over {:.3g} mm at {:.6g} mm: are unit and "
+          "type of the file right?",
+          change, length, to.q_mm));
+      return;
+    }
 }
 
 /// The readings as an error of machine documents holds them.
@@ -333,10 +352,12 @@ PositioningAnswer positioned(const json& request) {
   PositioningAnswer out{.result = {}, .axis = q.axis, .values = iso230_2(all)};
   ordered_json positions = ordered_json::array();
   for (const auto& p : out.values.positions) positions.push_back(position_json(p));
+  ordered_json warnings = q.measured ? lacks_json(all) : ordered_json::array();
+  add_doubt_of_slope(out.values.positions, warnings);
   out.result = {{"axis", std::string(1, q.axis)},
                 {"iso230_2", values_json(out.values)},
                 {"positions", std::move(positions)},
-                {"warnings", q.measured ? lacks_json(all) : ordered_json::array()},
+                {"warnings", std::move(warnings)},
                 {"table", table_json(q.table_mm, all.size())}};
   if (q.written) out.result["comp_file"] = comp_file_json(*q.written, out.values);
   return out;

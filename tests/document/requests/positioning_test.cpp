@@ -120,11 +120,39 @@ TEST(Positioning, SaysWhatTheTestLacks) {
       "not "
       "seen."};
   EXPECT_EQ(result["warnings"], wanted);
+  // Beyond 2 m positions some 250 mm apart are approached once.
+  const json long_axis =
+      answered({{"axis", "X"},
+                {"readings",
+                 {{"q_mm", {0, 260, 490, 760, 1010, 1240, 1500, 1760, 2010, 2250}},
+                  {"plus", {0, 1, 2, 3, 4, 5, 6, 7, 8, 9}},
+                  {"minus", {1, 2, 3, 4, 5, 6, 7, 8, 9, 10}},
+                  {"unit", "um"}}}});
+  EXPECT_EQ(
+      long_axis["warnings"],
+      json({"Positions were approached once: repeatability and accuracy are missing."}));
   // A machine and a file are not measured here.
   for (const json& example : examples())
     if (!example.contains("readings")) {
       EXPECT_EQ(answered(example)["warnings"], json::array());
     }
+}
+
+// Lines of type 1 read as those of type 0, and readings in um as if they were in mm.
+TEST(Positioning, DoubtsDeviationsThatNoAxisHas) {
+  json request{{"axis", "X"},
+               {"comp_file", {{"type", 0}, {"text", "0 0 0.004\n100 0.01 0.002"}}}};
+  EXPECT_EQ(answered(request)["warnings"],
+            json({"The deviation changes by 100 mm over 100 mm at 100 mm: are unit and "
+                  "type of the file right?"}));
+  request["comp_file"]["type"] = 1;
+  EXPECT_EQ(answered(request)["warnings"], json::array());
+  // Readings where the axis really stopped scatter.
+  request["comp_file"]["text"] = "0 0 0\n1e-4 0.005 -0.005";
+  EXPECT_EQ(answered(request)["warnings"], json::array());
+  request = laser();
+  request["readings"]["unit"] = "mm";
+  EXPECT_EQ(answered(request)["warnings"].size(), 1u);
 }
 
 // The file of a table, read as a table again, and in the other type and unit.
@@ -191,6 +219,10 @@ TEST(Positioning, RefusesFilesThatLinuxCncWouldNotTake) {
             "position above that of the line before");
   EXPECT_NE(of("0 0 1e300").find("#line 1"), std::string::npos);
   EXPECT_NE(of("\n \n").find("got no row"), std::string::npos);
+  EXPECT_EQ(
+      of(5),
+      "positioning: /comp_file/text: got 5, expected three numbers a line: nominal, "
+      "forward, reverse");
   std::string many;
   for (int i = 0; i < 257; ++i) many += std::to_string(i) + " 0 0\n";
   EXPECT_EQ(of(many),
