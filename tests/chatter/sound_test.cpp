@@ -16,6 +16,7 @@ struct Cut {
   int teeth = 4;
   double noise = 0.02, seconds = 1.2, rate_Hz = 16000;
   double chatter_Hz = 0, chatter = 0;
+  int only = 0;  ///< order of the only harmonic; 0: all
 };
 
 Sound sound_of(const Cut& cut, std::uint64_t seed) {
@@ -31,6 +32,7 @@ Sound sound_of(const Cut& cut, std::uint64_t seed) {
           std::sin(2 * M_PI * f_Hz * static_cast<double>(i) / cut.rate_Hz + phase);
   };
   for (int j = 1; j <= 40 && j * cut.n_rpm / 60 < cut.rate_Hz / 2; ++j) {
+    if (cut.only > 0 && j != cut.only) continue;
     const bool tooth = j % cut.teeth == 0;
     add(j * cut.n_rpm / 60, (tooth ? 1 : 0.15) * uniform() / (1 + 0.1 * j));
   }
@@ -106,6 +108,22 @@ TEST(Sound, ChatterIsHeardUpToHalfTheRate) {
       EXPECT_NEAR(heard.chatter->amplitude, 0.5, 0.1);
       EXPECT_NEAR(heard.to_Hz, 4000 - 4 * heard.resolution_Hz, 1e-9);
     }
+}
+
+// One early harmonic says too little of the speed to tell what stands out far above it from
+// another.
+TEST(Sound, ChatterFarAboveTheOnlyHarmonicIsHeard) {
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    Cut cut{.teeth = 2, .only = 2};
+    cut.chatter_Hz = 3 * between_harmonics(cut.n_rpm, seed) / 2;
+    const double turn = cut.n_rpm / 60;
+    if (std::abs(std::remainder(cut.chatter_Hz, turn)) < 0.15 * turn) continue;
+    cut.chatter = 0.3;
+    const auto heard = listen(sound_of(cut, seed),
+                              {.n_rpm = cut.n_rpm, .teeth = cut.teeth, .to_Hz = {}});
+    ASSERT_TRUE(heard.chatter) << seed << ' ' << cut.chatter_Hz;
+    EXPECT_NEAR(heard.chatter->frequency_Hz, cut.chatter_Hz, 0.5) << seed;
+  }
 }
 
 TEST(Sound, NoiseBehindAFilterIsNoChatter) {

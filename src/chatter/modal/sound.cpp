@@ -174,7 +174,8 @@ class Listener {
   }
 
   /// The spindle's frequency from its harmonics that stand out: each narrows the range in
-  /// which the next ones are looked for.
+  /// which the next ones are looked for.  After the first, those whose place is not known to
+  /// a line are not looked for: what stands out there may be chatter.
   void find_speed() {
     double unsure = 0.01;  // of the frequency
     double sum = 0, squares = 0;
@@ -182,6 +183,7 @@ class Listener {
     constexpr double kWide = 0.25, kLine = 0.2;  // of a turn's frequency; of a line
     for (double j = 1; j * given < out_.to_Hz && j * unsure < kWide; ++j) {
       const double f = j * turn_Hz_, about = std::max(unsure * f, out_.resolution_Hz);
+      if (squares > 0 && about > out_.resolution_Hz) break;
       if (f - about < out_.from_Hz) continue;
       const std::size_t at = spectrum_.highest(f - about, f + about);
       if (!spectrum_.peaks(at) || !stands_out(at)) continue;
