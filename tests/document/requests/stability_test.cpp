@@ -366,7 +366,8 @@ TEST(Stability, LimitsWithASwingingSpeedStandBesideThoseWithout) {
   }
   q["speed_variation"]["rva"] = {0};
   q["ap_max_mm"] = 5;
-  for (const json& s : answered(q)["speeds"])
+  const json deeper = answered(q)["speeds"];
+  for (const json& s : deeper)
     EXPECT_NEAR(s["varied"][0]["limit_mm"].get<double>() / s["limit_mm"].get<double>(), 1,
                 1e-7);
   q["speeds_rpm"] = {1};
