@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <ranges>
 
 #include "base/say.hpp"
 #include "operation_order.hpp"
@@ -327,13 +326,15 @@ bool SetupPlanner::can_be_made(const std::function<bool(const SurfaceTask&)>& ma
   CheapestFirst::AllTerms makers;  // choices that make every job of a group, at no cost
   for (std::size_t group = 0; group < makers.size(); ++group) {
     const auto of_group = [&](std::size_t i) { return choices_.of_group(group, i); };
-    const auto indices = std::views::iota(std::size_t{0}, choices_.size(group));
+    const std::size_t choices = choices_.size(group);
+    const auto some_choice_makes = [&](std::size_t j) {
+      std::size_t i = 0;
+      while (i < choices && !made(j, of_group(i))) ++i;
+      return i < choices;
+    };
     for (std::size_t j = 0; j < jobs_.size(); ++j)
-      if (group_of(j) == group && std::ranges::none_of(indices, [&](std::size_t i) {
-            return made(j, of_group(i));
-          }))
-        return false;
-    for (const std::size_t i : indices) {
+      if (group_of(j) == group && !some_choice_makes(j)) return false;
+    for (std::size_t i = 0; i < choices; ++i) {
       bool all = true;
       for (std::size_t j = 0; all && j < jobs_.size(); ++j)
         all = group_of(j) != group || made(j, of_group(i));
