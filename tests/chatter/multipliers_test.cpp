@@ -43,5 +43,13 @@ TEST(Multipliers, AreToldAtLowSpeed) {
   }
 }
 
+TEST(Multipliers, NothingThatCannotVibrateIsUnstable) {
+  System rigid = turning(0.01);
+  rigid.modes.clear();
+  const Multipliers at = multipliers(rigid, 900, 1);
+  EXPECT_EQ(at.unstable, 0);
+  EXPECT_EQ(at.spectral_radius, 0);
+}
+
 }  // namespace
 }  // namespace turnwright::chatter

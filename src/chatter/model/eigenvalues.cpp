@@ -5,6 +5,7 @@
 namespace turnwright::chatter {
 
 Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix) {
+  if (matrix.size() == 0) return {};  // which Eigen does not take
   return Eigen::EigenSolver<Eigen::MatrixXd>(matrix, false).eigenvalues();
 }
 

@@ -154,8 +154,13 @@ MeasuredTable read_measured_table(const Reader& csv, std::optional<Reader> names
     names->finish();
   }
   TableRows rows(csv, std::move(given), form);
+  const auto before = problems_of(csv);
   csv_cells(csv, form.most_rows, [&](const CsvCells& line) { return rows.take(line); });
-  return std::move(rows).table();
+  auto table = std::move(rows).table();
+  if (table.lines.empty() && problems_of(csv) == before)
+    csv.problem(tr("no rows below those of names and units"),
+                say("{} and 1 to {} rows", tr("a header"), form.most_rows), "count");
+  return table;
 }
 
 }  // namespace turnwright::document

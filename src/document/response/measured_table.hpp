@@ -34,9 +34,9 @@ struct TableForm {
 /// names that `names` ({"real": "Re(H1)"}) gives for their keys; other columns are ignored.
 /// Numbers have decimal points, or decimal commas where cells end at semicolons or tabs,
 /// one of them in the whole table.  What stands in brackets at a header's end, or has a
-/// slash, is its unit, known or not, but not the name of a channel, "(H1)".  A first row without numbers, all of whose cells are
-/// units, holds the units of the columns.
-/// Reported: what csv_cells reports; a name of `names` that no column has; two columns of
+/// slash, is its unit, known or not, but not the name of a channel, "(H1)".  A first row
+/// without numbers, all of whose cells are units, holds the units of the columns.
+/// Reported: what csv_cells reports; no rows but that of units; a name of `names` that no column has; two columns of
 /// one quantity; cells that are no numbers, by line and column.
 MeasuredTable read_measured_table(const Reader& csv, std::optional<Reader> names,
                                   const TableForm& form);

@@ -180,8 +180,10 @@ std::vector<FileLine> lines_and_blocks(std::string_view text) {
     const bool first = !out.empty() && is_delimiter(out.back().text);
     out.push_back({.number = out.size() + 1, .text = taken_line(text)});
     if (!first || !is_binary(out.back().text)) continue;
-    form = binary_form(out.back().text);
-    if (form.valid()) begin = out.size();
+    const auto announced = binary_form(out.back().text);
+    if (!announced.valid()) continue;
+    form = announced;
+    begin = out.size();
   }
   return out;
 }
@@ -342,7 +344,7 @@ class UniversalReader {
                  "of bytes",
                  kHeader),
              "type");
-    else if (end <= first + 1 + kHeader || !lines_[first + 1 + kHeader].bytes)
+    else if (end > first + 1 + kHeader && !lines_[first + 1 + kHeader].bytes)
       report(first, tr("a binary dataset 58b"), tr(kBytes), "type");
     else
       function(first + 1, end, form);

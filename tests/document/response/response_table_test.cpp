@@ -227,6 +227,16 @@ stability: /frf/0/csv#line 3/Coherence [dB]: got 1.2, expected a number from 0 t
 stability: /frf/0/csv#line 8/Frequency [Hz]: got 2000000, expected a number from 0 to 1000000 Hz)");
 }
 
+TEST(ResponseTable, UnitsAloneAreNoRows) {
+  const std::string none =
+      "stability: /frf/0/csv: got no rows below those of names and units, expected a "
+      "header and 1 "
+      "to "
+      "20000 rows";
+  EXPECT_EQ(refused({{"csv", {"f,Re,Im", "Hz,m/N,m/N"}}}), none);
+  EXPECT_EQ(refused({{"csv", {"x", "%", "", ","}}}), none);
+}
+
 TEST(ResponseTable, HeadersThatDoNotTellEnough) {
   EXPECT_EQ(
       refused({{"csv", {"f,amp,phase", "1,2,3"}}}),

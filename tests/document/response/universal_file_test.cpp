@@ -243,6 +243,14 @@ TEST(UniversalFile, BytesThatDoNotFitTheirHeaderAreRefused) {
   EXPECT_NE(refused({{"uff", {{"text", lines}}}}), "");
 }
 
+TEST(UniversalFile, ADatasetAnnouncedWithinAHeaderOfBytesIsRefused) {
+  std::string text = bytes_of(source_path("tests/data/uff/binary-58b.uff"));
+  text.insert(text.find('\n', text.find("58b")) + 1, "    -1\n    58b\n");
+  EXPECT_NE(refused(measured_file(text))
+                .find("got a dataset 58 of 0 records, expected 11 and its values"),
+            std::string::npos);
+}
+
 TEST(UniversalFile, BytesOfOtherFunctionsAreSkipped) {
   const auto all = functions(frf("pyuff-binary-time-history")["uff"]["text"]);
   ASSERT_EQ(all.size(), 1U);
