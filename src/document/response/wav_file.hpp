@@ -16,9 +16,10 @@ struct WavFile {
 
 inline constexpr std::size_t kWavSamples = 8'000'000;  ///< of a channel
 
-/// Reads a WAVE file (RIFF): whole numbers of 16, 24 and 32 bits and floating-point numbers
-/// of 32 bits, also as WAVE_FORMAT_EXTENSIBLE, one or two channels, 1 to 400 kHz.  Chunks
-/// other than "fmt " and "data" are passed over.
+/// Reads a WAVE file (RIFF): whole numbers of 8 (without a sign), 16, 24 and 32 bits and
+/// floating-point numbers of 32 and 64 bits, also as WAVE_FORMAT_EXTENSIBLE, one or two
+/// channels, 1 to 400 kHz.  Chunks other than "fmt " and "data" are passed over.  Data of 0xFFFFFFFF bytes, as programs
+/// write them to a pipe, end with the file.
 /// Source: [RIFF 1991].
 /// @param at  of the file in the request; problems tell the byte of the file in `got`.  An
 ///   empty result if there is one.
