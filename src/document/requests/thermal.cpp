@@ -369,26 +369,27 @@ void warn_of_range(const std::string& what, std::span<const double> seen,
                    std::span<const double> asked, const char* unit,
                    const std::string& where, json& warnings) {
   const auto [low, high] = std::ranges::minmax(seen);
+  const double rounding = 1e-12 * std::max(std::abs(low), std::abs(high));
   const auto beyond = std::ranges::count_if(
-      asked, [l = low, h = high](double x) { return x < l || x > h; });
+      asked,
+      [l = low - rounding, h = high + rounding](double x) { return x < l || x > h; });
   if (beyond > 0)
-    warnings.push_back(say("{}: {} rows with {} outside the fitted {} to {} {}", where,
-                           beyond, what, number_text(low), number_text(high), unit));
+    warnings.push_back(say("{}: {} rows with {} outside the fitted {:.6g} to {:.6g} {}",
+                           where, beyond, what, low, high, unit));
 }
 
 json warnings_json(const ThermalRequest& q, const LagFit& fit) {
   json out = json::array();
   for (const Parameter& p : fit.parameters) {
     if (p.found == Found::at_lower || p.found == Found::at_upper)
-      out.push_back(
-          p.found == Found::at_lower
-              ? say("{}: at its lower bound, {}", p.name, number_text(p.value))
-              : say("{}: at its upper bound, {}", p.name, number_text(p.value)));
+      out.push_back(p.found == Found::at_lower
+                        ? say("{}: at its lower bound, {:.4g}", p.name, p.value)
+                        : say("{}: at its upper bound, {:.4g}", p.name, p.value));
     else if (p.found == Found::unknown)
       out.push_back(say("{}: nothing in the log depends on it", p.name));
     else if (p.ill_determined)
-      out.push_back(say("{}: ill-determined, standard uncertainty {} of {}", p.name,
-                        number_text(p.u), number_text(p.value)));
+      out.push_back(say("{}: ill-determined, standard uncertainty {:.3g} of {:.4g}",
+                        p.name, p.u, p.value));
   }
   const Inputs& log = q.log.inputs;
   const auto check = [&](const Inputs& in, std::size_t from, const std::string& where) {

@@ -165,6 +165,13 @@ TEST(Thermal, WarnsBeyondWhatWasFitted) {
   EXPECT_TRUE(has("p: nothing in the log depends on it"));  // one speed
 }
 
+TEST(Thermal, RoundingIsNotBeyondWhatWasFitted) {
+  json request = examples()[1];
+  request["shift"]["rpm"] = {std::nextafter(3000, 4000), 3000};
+  for (const json& w : answered(request)["warnings"])
+    EXPECT_EQ(w.get<std::string>().find("with speeds"), std::string::npos) << w;
+}
+
 TEST(Thermal, TheNetworkSaysWhereItExtrapolates) {
   json request{{"log", simulated()}, {"train_before_s", 40000}, {"model", {{"lags", 2}}}};
   request["network"] = {{"seed", 1}, {"starts", 1}, {"hidden", 3}};
