@@ -5,6 +5,7 @@ as the characters of their numbers), a folder per target for libFuzzer.
 Usage: corpus.py unpack FOLDER   the kept inputs, the schemas' examples and parts/; prints
                                  the targets
        corpus.py pack FOLDER     keeps what is there, the short ones first, 40 kB per target"""
+import base64
 import io
 import json
 import pathlib
@@ -26,6 +27,7 @@ def seeds():
     for part in sorted((ROOT / "parts").glob("*.json")):
         for door in "plan", "drawing", "nc", "predict":
             yield door, part.read_text()
+        yield "quote", f'{{"parts": [{part.read_text()}], "batches": [1, 100]}}'
     for schema in sorted((ROOT / "schemas").glob("*.request.json")):
         door = schema.name.removesuffix(".request.json")
         for example in json.loads(schema.read_text()).get("examples", []):
@@ -39,11 +41,17 @@ def seeds():
                 program = program if isinstance(program, str) else "\n".join(program)
                 yield "program", program
                 yield "program-lathe", program
+            if door == "listen":
+                yield "sound", base64.b64decode(example["wav"]).decode("latin-1")
+            if "comp_file" in example:
+                yield "comp-file", "\n".join(example["comp_file"]["text"])
             if door == "review":
                 yield "review-fanuc", example["programs"][0]["text"]
             for table in tables(example):
                 taps = "frf-taps" if table.startswith("t [s]") else "frf-csv"
                 yield taps if door == "stability" else "csv-" + door, table
+                if door == "stability":
+                    yield "frf-file", table
     for program in sorted((ROOT / "tests" / "data" / "nc").rglob("*.*")):
         control = {".ngc": "linuxcnc", ".mpf": "siemens"}.get(program.suffix)
         if control:
@@ -53,6 +61,8 @@ def seeds():
             yield f"drawing-{kind}", drawing.read_text()
     for file in sorted((ROOT / "tests" / "data" / "uff").rglob("*.uff")):
         yield "frf-uff", file.read_bytes().decode("latin-1")
+        yield "frf-file", file.read_bytes().decode("latin-1")
+    yield "frf-file", "400\t1e-8\t-2e-8\tFreq\tHz\tReal\tm/N\tImag\n401\t2e-8\t-1e-8\t\n"
     for file in sorted((ROOT / "tests" / "data" / "qif").glob("*.qif")):
         yield "qif", file.read_text()
     for library in sorted((ROOT / "tests" / "data" / "tools").glob("*.[cjxf]*")):

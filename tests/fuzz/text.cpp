@@ -2,9 +2,11 @@
 
 #include "answered.hpp"
 #include "document/json/file.hpp"
+#include "document/response/measured_file.hpp"
 #include "service/batch/line.hpp"
 #include "targets.hpp"
 #include "turnwright/document/import.hpp"
+#include "turnwright/document/listen.hpp"
 
 namespace turnwright::fuzz {
 namespace {
@@ -71,15 +73,25 @@ Text response(const std::string& form) {
                      {"kp_MPa", 900},
                      {"points", {{{"n_rpm", 900}, {"ap_mm", 0.01}}}},
                      {"frf", json::array({json::object()})}};
-  return {request, json::json_pointer("/frf/0/" + form)};
+  return {request, json::json_pointer("/frf/0" + form)};
 }
 
-Target in_request(const std::string& door, Text text) {
-  return [&row = door_named(door), text](std::string_view input) {
+using Bytes = std::function<json(std::string_view)>;
+
+Target in_request(const std::string& door, Text text, Bytes value = readable) {
+  return [&row = door_named(door), text, value](std::string_view input) {
     auto request = text.request;
-    request[text.place] = readable(input);
+    request[text.place] = value(input);
     answered(row, request);
   };
+}
+
+// The bytes of a file as the command line puts them into a request.
+json response_file(std::string_view bytes) {
+  return document::measured_file(std::string(bytes));
+}
+json sound_file(std::string_view bytes) {
+  return document::sound_base64(std::string(bytes));
 }
 
 template <class Read>
@@ -110,9 +122,19 @@ Target text_target(const std::string& name) {
   if (name == "qif")
     return in_request("learn", {{{"qif", {{"files", json::array({""})}}}},
                                 json::json_pointer("/qif/files/0")});
-  if (name == "frf-csv") return in_request("stability", response("csv"));
-  if (name == "frf-uff") return in_request("stability", response("uff/text"));
-  if (name == "frf-taps") return in_request("stability", response("taps/csv"));
+  if (name == "frf-file") return in_request("stability", response(""), response_file);
+  if (name == "sound")
+    return in_request("listen",
+                      {{{"n_rpm", 900}, {"teeth", 3}}, json::json_pointer("/wav")},
+                      sound_file);
+  if (name == "comp-file")
+    return in_request("positioning", {{{"axis", "X"},
+                                       {"comp_file", {{"type", 0}, {"unit", "mm"}}},
+                                       {"write_comp_file", json::object()}},
+                                      json::json_pointer("/comp_file/text")});
+  if (name == "frf-csv") return in_request("stability", response("/csv"));
+  if (name == "frf-uff") return in_request("stability", response("/uff/text"));
+  if (name == "frf-taps") return in_request("stability", response("/taps/csv"));
   if (name == "library")
     return [&row = door_named("import-tools")](std::string_view bytes) {
       answered(row, document::import_request(std::string(bytes)));
