@@ -153,7 +153,8 @@ std::string shown(const nlohmann::json& value) {
       value.is_array() && std::any_of(value.begin(), value.end(), structured);
   if (nested || value.size() > kShownEntries)
     return say("a list of {}", entries(value.size()));
-  std::string text = value.dump(-1, ' ', true);  // ASCII: may be cut anywhere
+  // In ASCII, which may be cut anywhere; a text may be a part that ends within a letter.
+  std::string text = value.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
   if (text.size() > kShown) text = text.substr(0, kShown) + "...";
   return text;
 }

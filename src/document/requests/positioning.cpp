@@ -124,8 +124,7 @@ AxisTable read_comp_file(Reader r) {
   while (!lines.empty() && trimmed(lines.back().text).empty()) lines.pop_back();
   const auto refuse = [&](const TextLine& line, const std::string& expected) {
     text.problems().add({line_pointer(text, line.number),
-                         shown(json(std::string(line.text.substr(0, 80)))), expected,
-                         "range"});
+                         shown(json(std::string(line.text))), expected, "range"});
   };
   if (lines.empty() && !text.broken() && text.problems().list.size() == problems)
     text.problem(tr("no row"), tr(form), "count");

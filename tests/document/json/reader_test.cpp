@@ -120,6 +120,11 @@ TEST(Reader, AnIntegerNeverWraps) {
             "/3: got -1, expected a whole number from 0 to 10 [range]\n");
 }
 
+TEST(Reader, AValueIsShownEvenIfItsTextEndsWithinALetter) {
+  EXPECT_EQ(shown(std::string("1 \u00e9").substr(0, 3)), "\"1 \\ufffd\"");
+  EXPECT_EQ(shown(std::string(100, 'x')), '"' + std::string(59, 'x') + "...");
+}
+
 TEST(Reader, SuggestsOnlyWhatIsNear) {
   EXPECT_EQ(nearest("diamter_mm", {"length_mm", "diameter_mm"}), "diameter_mm");
   EXPECT_EQ(nearest("colour", {"id", "kind"}), "");

@@ -214,6 +214,7 @@ TEST(Positioning, RefusesFilesThatLinuxCncWouldNotTake) {
   EXPECT_EQ(of("# a comment\n0 0 0"),
             "positioning: /comp_file/text#line 1: got \"# a comment\", expected three "
             "numbers a line: nominal, forward, reverse; LinuxCNC reads no further");
+  EXPECT_NE(of(std::string(79, 'x') + "\u00e9").find("got \"xxxx"), std::string::npos);
   EXPECT_EQ(of("0 0 0\n1 1 1\n1 1 1\n"),
             "positioning: /comp_file/text#line 3: got \"1 1 1\", expected a nominal "
             "position above that of the line before");
