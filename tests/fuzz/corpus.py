@@ -59,6 +59,7 @@ def seeds():
     for kind, pattern in ("step", "step/cases/*.step"), ("dxf", "dxf/*.dxf"):
         for drawing in sorted((ROOT / "tests" / "data").glob(pattern)):
             yield f"drawing-{kind}", drawing.read_text()
+            yield "drawing-file", drawing.read_bytes().decode("latin-1")
     for file in sorted((ROOT / "tests" / "data" / "uff").rglob("*.uff")):
         yield "frf-uff", file.read_bytes().decode("latin-1")
         yield "frf-file", file.read_bytes().decode("latin-1")

@@ -94,6 +94,15 @@ json sound_file(std::string_view bytes) {
   return document::sound_base64(std::string(bytes));
 }
 
+// A file of an import, and what its request has beside it.
+Target file_of(const std::string& door, const json& beside) {
+  return [&row = door_named(door), beside](std::string_view bytes) {
+    auto request = document::import_request(std::string(bytes));
+    request.update(beside);
+    answered(row, request);
+  };
+}
+
 template <class Read>
 Target refused_or_read(const Read& read) {
   return [read](std::string_view input) {
@@ -135,10 +144,8 @@ Target text_target(const std::string& name) {
   if (name == "frf-csv") return in_request("stability", response("/csv"));
   if (name == "frf-uff") return in_request("stability", response("/uff/text"));
   if (name == "frf-taps") return in_request("stability", response("/taps/csv"));
-  if (name == "library")
-    return [&row = door_named("import-tools")](std::string_view bytes) {
-      answered(row, document::import_request(std::string(bytes)));
-    };
+  if (name == "library") return file_of("import-tools", json::object());
+  if (name == "drawing-file") return file_of("import", {{"material", "C45"}});
   if (!name.starts_with("csv-")) return {};
   return in_request(name.substr(4), table_of(door_named(name.substr(4))));
 }
