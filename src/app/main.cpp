@@ -236,9 +236,9 @@ Exit exit_code(const service::Drawn& drawn, bool programs) {
   return none ? kRange : kOk;
 }
 
-/// Whether the request is one of `nc`: a part with settings of its programs.
-bool is_for_programs(const service::Request& row) {
-  return service::request_schema(row) == "nc.request.json";
+/// Whether requests have the schema NAME.request.json: "nc", "learn" ..
+bool takes(const service::Request& row, const std::string& name) {
+  return service::request_schema(row) == name + ".request.json";
 }
 
 /// Whether a document is the part of a request of `nc` alone.
@@ -267,11 +267,6 @@ void put_program(const nlohmann::ordered_json& result, const Arguments& argument
     std::cerr << tr("no NC program: there is no feasible plan\n");
 }
 
-/// Whether the request is one of `learn`, whose table and part may be files of their own.
-bool is_of_measured_parts(const service::Request& row) {
-  return service::request_schema(row) == "learn.request.json";
-}
-
 constexpr ForeignFile kResults{to_translate("a measurement of at most so many"),
                                to_translate("a QIF 3.0 file"),
                                document::kLocalLimits.bytes};
@@ -279,14 +274,6 @@ constexpr ForeignFile kResults{to_translate("a measurement of at most so many"),
 constexpr ForeignFile kMeasured{to_translate("a table of at most so many"),
                                 to_translate("a table of measured parts"),
                                 document::kLocalLimits.bytes};
-
-bool is_of_chatter(const service::Request& row) {
-  return service::request_schema(row) == "stability.request.json";
-}
-
-bool is_of_sound(const service::Request& row) {
-  return service::request_schema(row) == "listen.request.json";
-}
 
 constexpr ForeignFile kSound{to_translate("a sound of at most so many"),
                              to_translate("a .wav file"),
@@ -311,10 +298,6 @@ void add_response(const std::filesystem::path& file, nlohmann::json& request) {
     entry["taps"]["csv"] = data["csv"];
   else
     entry.update(data);
-}
-
-bool is_of_positioning(const service::Request& row) {
-  return service::request_schema(row) == "positioning.request.json";
 }
 
 constexpr ForeignFile kReadings{to_translate("a table of at most so many"),
@@ -345,7 +328,7 @@ void add_sound(const Arguments& arguments, nlohmann::json& request) {
 }
 
 nlohmann::json asked(const service::Request& row, const Arguments& arguments) {
-  const bool sound = is_of_sound(row);
+  const bool sound = takes(row, "listen");
   if (arguments.file.empty() && !arguments.table && arguments.results.empty() &&
       !(arguments.sound && arguments.speed_rpm))
     throw wrong_option(
@@ -382,9 +365,9 @@ Exit run_request(const service::Request& row, const Arguments& arguments) {
   require_places(arguments);
   const auto settings = nc_settings(arguments.nc);
   auto request = asked(row, arguments);
-  const bool part_alone = is_for_programs(row) && is_part(request);
+  const bool part_alone = takes(row, "nc") && is_part(request);
   if (part_alone) request = {{"part", std::move(request)}};
-  if (is_for_programs(row) && request.is_object()) request.update(arguments.nc);
+  if (takes(row, "nc") && request.is_object()) request.update(arguments.nc);
   const auto catalogue = document::load_catalogue(document::data_folder(arguments.data));
   const auto drawn =
       answer(row, arguments, request, part_alone ? "/part" : "", catalogue, settings);
@@ -455,7 +438,7 @@ void add_commands(CLI::App& app, Arguments& arguments, std::function<Exit()>& ch
     auto* command = app.add_subcommand(row.name, tr(row.summary));
     auto* file = command->add_option("REQUEST", arguments.file,
                                      tr("request document; - reads standard input"));
-    if (is_of_measured_parts(row)) {
+    if (takes(row, "learn")) {
       add_path(*command, "--csv", arguments.table,
                tr("table of measured parts, in place of the request's rows"));
       add_paths(*command, "--qif", arguments.results,
@@ -465,15 +448,15 @@ void add_commands(CLI::App& app, Arguments& arguments, std::function<Exit()>& ch
                tr("part document, whose tolerances are the characteristics"));
       command->add_flag("--update", arguments.update,
                         tr("also update the factors of the models, and write documents"));
-    } else if (!is_of_sound(row)) {
+    } else if (!takes(row, "listen")) {
       file->required();
     }
-    if (is_of_chatter(row))
+    if (takes(row, "stability"))
       add_paths(
           *command, "--frf", arguments.responses,
           tr("measured response (CSV, universal file) of the next entry of frf; taps "
              "where that has the key taps"));
-    if (is_of_sound(row)) {
+    if (takes(row, "listen")) {
       add_path(*command, "--wav", arguments.sound,
                tr("sound of the cut, as wav of the request"));
       add_number<double>(*command, "--speed", arguments.speed_rpm, Range<double>{1, 1e6},
@@ -481,7 +464,7 @@ void add_commands(CLI::App& app, Arguments& arguments, std::function<Exit()>& ch
       add_number<int>(*command, "--teeth", arguments.teeth, Range<int>{1, 100},
                       tr("teeth of the cutter, in place of the request's; 1 in turning"));
     }
-    if (is_of_positioning(row)) {
+    if (takes(row, "positioning")) {
       add_path(*command, "--csv", arguments.readings,
                tr("table of a laser's readings, as csv of the request's readings"));
       add_path(*command, "--comp-file", arguments.comp_file,
@@ -501,20 +484,20 @@ void add_commands(CLI::App& app, Arguments& arguments, std::function<Exit()>& ch
                               tr("write NC programs to this folder: setup-1.ngc, .."));
       for (auto* option : add_nc_options(*command, arguments.nc)) option->needs(folder);
     }
-    if (is_for_programs(row)) {
+    if (takes(row, "nc")) {
       add_nc_options(*command, arguments.nc);
       add_number<std::size_t>(
           *command, "--setup", arguments.setup, Range<std::size_t>{1, 100},
           tr("print, or write to --output, the program of this setup"));
     }
-    if (service::request_schema(row) == "quote.request.json")
+    if (takes(row, "quote"))
       add_path(*command, "--xlsx", arguments.card,
                tr("write a process card (Excel: prices, routing, ways) here"));
     if (row.html)
       add_path(*command, "--report", arguments.report_file,
                tr("write the report (HTML, printable) here"));
     const std::string of_files =
-        is_of_measured_parts(row)
+        takes(row, "learn")
             ? "\n  turnwright learn --csv docs/examples/learn/pin.csv --part "
               "docs/examples/guide/pin.json"
             : "";
