@@ -118,6 +118,7 @@ double DelayMap::turns(const CutterEngagement& contact) const {
   double force = 0, damping = 0;
   constexpr int kSamples = 64;
   for (int k = 0; k < kSamples; ++k) {
+    leave_if_asked();
     const Load load = contact.load(contact.period_rad() * (k + 0.5) / kSamples);
     double all = 0;
     for (const Directional& h : load.regenerative) all += size(h);
@@ -133,6 +134,7 @@ void DelayMap::lay_out(double turns, const std::vector<double>& longest,
   const std::vector<double> breaks = contact_.breaks();
   size_ = states_;
   for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
+    leave_if_asked();
     const double begin = breaks[i] / rad_s_, length = breaks[i + 1] / rad_s_ - begin;
     if (!contact_.cuts((breaks[i] + breaks[i + 1]) / 2)) {
       pieces_.emplace_back();

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "periodic.hpp"
+#include "turnwright/base/cancelled.hpp"
 #include "turnwright/base/units.hpp"
 
 namespace turnwright::chatter {
@@ -107,6 +108,7 @@ void CutterEngagement::enter_segments(std::size_t tooth) {
       if (phi > system.entry_rad && phi < system.exit_rad) borders.push_back(phi);
   };
   for (std::size_t i = 0; i < teeth; ++i) {
+    leave_if_asked();
     border(met[i].feed_mm, met[i].gap_mm);
     for (std::size_t k = 0; k < i; ++k)
       border(met[i].feed_mm - met[k].feed_mm, met[i].gap_mm - met[k].gap_mm);
@@ -131,18 +133,26 @@ void CutterEngagement::for_each_met(double angle, F visit) const {
     const double phi = angle + place_[segment.tooth], low = phi - lag_ * ap_;
     // The edge spans the angles from `low` to `phi`; k are the numbers of whole turns that,
     // subtracted, bring a part of it into the segment.
-    const double first = std::ceil((low - segment.end) / (2 * kPi)),
-                 last = std::floor((phi - segment.begin) / (2 * kPi));
-    for (double k = first; k <= last; ++k) {
+    const auto turns = [](double span) { return span / (2 * kPi); };
+    const double first = std::ceil(turns(low - segment.end)),
+                 last = std::floor(turns(phi - segment.begin));
+    const auto meet = [&](double k) {
       const double turn = 2 * kPi * k;
-      if (lag_ == 0) {
-        visit(segment, Met{ap_, phi - turn, 0});
-        continue;
-      }
+      if (lag_ == 0) return visit(segment, Met{ap_, phi - turn, 0});
       const double from = std::max(segment.begin, low - turn),
                    to = std::min(segment.end, phi - turn);
       if (to > from) visit(segment, Met{(to - from) / lag_, (from + to) / 2, to - from});
-    }
+    };
+    // Those that fill the segment are alike.
+    double whole = std::ceil(turns(low - segment.begin)),
+           beyond = std::floor(turns(phi - segment.end)) + 1;
+    if (lag_ == 0 || beyond - whole <= 1) whole = beyond = last + 1;
+    for (double k = first; k < whole; ++k) meet(k);
+    const double width = segment.end - segment.begin;
+    if (beyond > whole)
+      visit(segment, Met{(beyond - whole) * width / lag_,
+                         (segment.begin + segment.end) / 2, width});
+    for (double k = beyond; k <= last; ++k) meet(k);
   }
 }
 
@@ -209,23 +219,31 @@ std::vector<double> CutterEngagement::breaks() const {
 }
 
 std::vector<double> kinks_mm(const Cutter& cutter, double n_rpm, double ap_max_mm) {
+  if (!(cutter.helix_rad > 0)) return {};
+  constexpr std::size_t kMost = 40;  // with more the depths are too close to each other
+  constexpr std::size_t kKept = 4096;
   std::vector<double> out;
-  if (!(cutter.helix_rad > 0)) return out;
+  const auto too_many = [&] {
+    std::ranges::sort(out);
+    const auto same = [&](double a, double b) { return b - a < 1e-9 * ap_max_mm; };
+    out.erase(std::unique(out.begin(), out.end(), same), out.end());
+    return out.size() > kMost;
+  };
   const double lag = lag_rad_mm(cutter);
   const CutterEngagement contact(cutter, n_rpm, ap_max_mm);
   const std::vector<double> ends = contact.ends();
-  for (const double a : ends)
+  for (const double a : ends) {
+    leave_if_asked();
     for (const double b : ends) {
       double apart = remainder_of(a - b, contact.period_rad());
       if (apart < kSame) apart = contact.period_rad();
-      for (; apart < lag * ap_max_mm; apart += contact.period_rad())
+      for (; apart < lag * ap_max_mm; apart += contact.period_rad()) {
         out.push_back(apart / lag);
+        if (out.size() > kKept && too_many()) return {};
+      }
     }
-  std::ranges::sort(out);
-  const auto same = [&](double a, double b) { return b - a < 1e-9 * ap_max_mm; };
-  out.erase(std::unique(out.begin(), out.end(), same), out.end());
-  constexpr std::size_t kMost = 40;  // with more the depths are too close to each other
-  if (out.size() > kMost) out.clear();
+  }
+  if (too_many()) return {};
   return out;
 }
 
