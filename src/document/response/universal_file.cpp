@@ -12,6 +12,7 @@
 #include "document/json/csv.hpp"
 #include "document/json/text_lines.hpp"
 #include "measured_response.hpp"
+#include "turnwright/base/cancelled.hpp"
 
 namespace turnwright::document {
 namespace {
@@ -152,7 +153,8 @@ std::string taken_block(std::string_view& text, const BinaryForm& form,
   const double y = (precise ? 8 : 4) * (complex ? 2 : 1);
   for (const double bytes : {form.bytes, field(1) * (even ? y : y + (precise ? 8 : 4)),
                              field(1) * (even ? y : y + 4)}) {
-    if (!(bytes > 0 && bytes <= kMostBytes)) continue;
+    if (!(bytes > 0 && bytes < static_cast<double>(text.size()))) continue;
+    leave_if_asked();
     std::string_view rest = text;
     auto block = taken_bytes(rest, static_cast<std::size_t>(bytes));
     if (!ends(rest)) continue;

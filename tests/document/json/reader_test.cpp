@@ -122,7 +122,7 @@ TEST(Reader, AnIntegerNeverWraps) {
 
 TEST(Reader, AValueIsShownEvenIfItsTextEndsWithinALetter) {
   EXPECT_EQ(shown(std::string("1 \u00e9").substr(0, 3)), "\"1 \\ufffd\"");
-  EXPECT_EQ(shown(std::string(100, 'x')), '"' + std::string(59, 'x') + "...");
+  EXPECT_EQ(shown(std::string(100, 'x')).size(), 63U);  // of 60 and "..."
 }
 
 TEST(Reader, SuggestsOnlyWhatIsNear) {

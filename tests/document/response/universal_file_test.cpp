@@ -12,9 +12,11 @@
 #include <fstream>
 #include <iterator>
 #include <random>
+#include <stop_token>
 
 #include "document/response/measured_file.hpp"
 #include "responses.hpp"
+#include "turnwright/base/cancelled.hpp"
 #include "turnwright/base/errors.hpp"
 
 namespace turnwright::document::universal_file_test {
@@ -241,6 +243,23 @@ TEST(UniversalFile, BytesThatDoNotFitTheirHeaderAreRefused) {
   std::istringstream text(frf("binary-58b")["uff"]["text"].get<std::string>());
   for (std::string l; std::getline(text, l);) lines.push_back(l);
   EXPECT_NE(refused({{"uff", {{"text", lines}}}}), "");
+}
+
+TEST(UniversalFile, MoreBytesThanAreThereAreThoseOfTheValues) {
+  std::string text = frf("binary-58b")["uff"]["text"];
+  const std::string stated = "11         408";
+  text.replace(text.find(stated), stated.size(), "11    99999999");
+  expect_modes(told({{"uff", {{"text", text}}}}), kTwo, 1e-9);
+}
+
+TEST(UniversalFile, BytesCanBeLeft) {
+  std::stop_source work;
+  const auto stop = work.get_token();
+  const Listening listening(stop);
+  const json text = frf("binary-58b")["uff"]["text"];
+  EXPECT_EQ(functions(text).size(), 1U);
+  work.request_stop();
+  EXPECT_THROW(functions(text), Cancelled);
 }
 
 TEST(UniversalFile, ADatasetAnnouncedWithinAHeaderOfBytesIsRefused) {
