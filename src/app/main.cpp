@@ -11,6 +11,7 @@
 #include <iostream>
 #include <iterator>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -656,7 +657,10 @@ int run(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
     if (app.get_subcommands().empty()) refuse_unknown(app);
-    return app.exit(e) == 0 ? kOk : kInput;
+    std::ostringstream help;
+    if (app.exit(e, help, std::cerr) != 0) return kInput;
+    service::print(help.str());
+    return kOk;
   }
   return chosen();
 }

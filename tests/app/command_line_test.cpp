@@ -419,9 +419,13 @@ TEST_F(CommandLine, SaysWhenTheResultCannotBeWritten) {
     EXPECT_EQ(outcome.err.rfind(target + ": cannot be written: ", 0), 0u) << outcome.err;
   }
   EXPECT_EQ(files(), std::vector<std::string>{"request.json"});
-  const auto outcome = shell("turnwright list materials > /dev/full");
-  EXPECT_EQ(outcome.code, 74);
-  EXPECT_NE(outcome.err.find("standard output"), std::string::npos);
+  for (const std::string command :
+       {"list materials", "--help", "plan --help", "--version"}) {
+    SCOPED_TRACE(command);
+    const auto outcome = shell("turnwright " + command + " > /dev/full");
+    EXPECT_EQ(outcome.code, 74);
+    EXPECT_NE(outcome.err.find("standard output"), std::string::npos);
+  }
 }
 
 }  // namespace
