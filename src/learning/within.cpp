@@ -73,12 +73,15 @@ Within within_fit(const Table& t) {
            .inverse = {},
            .residual = {},
            .leverage = {}};
-  w.inverse = (x.transpose() * x).inverse();
+  w.leverage = Eigen::VectorXd::Zero(y.size());
+  if (x.cols() > 0) {
+    w.inverse = (x.transpose() * x).inverse();
+    w.leverage = (x * w.inverse).cwiseProduct(x).rowwise().sum();
+  }
   w.beta = w.inverse * (x.transpose() * y);
   w.residual = y - x * w.beta;
   w.rss = w.residual.squaredNorm();
   w.degrees = static_cast<double>(y.size() - t.n.size() - x.cols());
-  w.leverage = (x * w.inverse).cwiseProduct(x).rowwise().sum();
   for (Eigen::Index i = 0; i < y.size(); ++i)
     w.leverage[i] += 1 / t.n[t.edge[static_cast<std::size_t>(i)]];
   return w;
