@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <Eigen/QR>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
@@ -28,7 +30,6 @@ constexpr double kLever = 100;  // length that makes angles comparable with shif
 // 1e-7 have components of up to 2e-6 in unknowns that they do not change, and above 1e-3
 // in those they do.
 constexpr double kMoves = 5e-5;
-constexpr std::size_t kCoefficients = 10'000'000;  // seconds, and 80 MB a matrix
 
 Vector3d column(const Vec3& v) { return {v[0], v[1], v[2]}; }
 
@@ -137,27 +138,9 @@ void each_probing(const SambaStrategy& s, Ball ball, Touch touch) {
 }
 
 /// Equations (1) to (3), in the order of the readings.
-struct Equations {
-  std::vector<std::string> unknowns;
-  std::size_t parameters = 0;
-  MatrixXd A;
-};
-
-struct Size {
-  std::size_t equations = 0, unknowns = 0;
-  bool solvable() const { return equations * unknowns <= kCoefficients; }
-};
-
-Size size_of(const SambaStrategy& s, const std::vector<std::string>& parameters) {
-  Size size{1, parameters.size() + 3 * s.balls_mm.size() + 3};
-  for (const Indexation& at : s.indexations)
-    size.equations += s.styli_mm.size() * (3 * at.balls.size() + at.pre_moves.size());
-  return size;
-}
-
-class Builder {
+class Equations {
  public:
-  Builder(const SambaStrategy& strategy, const std::vector<std::string>& names)
+  Equations(const SambaStrategy& strategy, const std::vector<std::string>& names)
       : strategy_(strategy), names_(names) {
     for (const std::string& name : names) {
       const auto p = parsed(name);
@@ -177,28 +160,44 @@ class Builder {
         strategy.styli_mm.empty())
       throw std::domain_error("samba: two ends of the scale bar and a stylus");
     tip_ = static_cast<Index>(names.size() + 3 * strategy.balls_mm.size());
+    size_ = samba_size(strategy, names);
+    if (!size_.solvable())
+      throw ModelRangeError(
+          say("samba: {} equations of {} unknowns, at most {:.0e} equations times "
+              "unknowns squared are solved",
+              size_.equations, size_.unknowns, kMostSambaWork));
   }
 
-  Equations build() {
-    leave_if_asked();
-    const Size size = size_of(strategy_, names_);
-    if (!size.solvable())
-      throw ModelRangeError(
-          say("samba: {} equations of {} unknowns, at most {} coefficients are solved",
-              size.equations, size.unknowns, kCoefficients));
+  std::size_t count() const { return size_.equations; }
+  std::size_t parameters() const { return parameters_.size(); }
+
+  std::vector<std::string> unknowns() const {
+    std::vector<std::string> out = names_;
+    for (std::size_t i = 0; i < strategy_.balls_mm.size(); ++i)
+      for (const char c : {'x', 'y', 'z'})
+        out.push_back("ball" + std::to_string(i + 1) + '_' + c);
+    for (const char c : {'x', 'y', 'z'}) out.push_back(std::string("tip_") + c);
+    return out;
+  }
+
+  /// Calls use(row) for each equation; so all of them never stand in memory at once.
+  template <class Use>
+  void each(Use use) const {
     const Vector3d n = column(strategy_.facet_normal).normalized();
     each_probing(
         strategy_,
         [&](const Matrix3d& R, const Indexation& at, const Vec3& stylus, std::size_t b) {
+          leave_if_asked();
           MatrixXd row = tip(R, at, stylus, strategy_.balls_mm[b], {});
           row.middleCols<3>(ball(b)) = -Matrix3d::Identity();  // Eq. (1)
-          for (Index k = 0; k < 3; ++k) rows_.push_back(row.row(k));
+          for (Index k = 0; k < 3; ++k) use(VectorXd(row.row(k)));
         },
         [&](const Matrix3d& R, const Indexation& at, const Vec3& stylus,
             const std::array<double, 3>& sign) {
+          leave_if_asked();
           VectorXd row = tip(R, at, stylus, strategy_.facet_mm, sign).transpose() * n;
           if (facet_) row[*facet_] = -1;  // Eq. (2)
-          rows_.push_back(row);
+          use(row);
         });
     const auto [a, b] = strategy_.scale_bar_ends;
     const Vector3d u =
@@ -206,16 +205,7 @@ class Builder {
     VectorXd row = VectorXd::Zero(tip_ + 3);
     row.segment<3>(ball(a)) = -u;
     row.segment<3>(ball(b)) = u;
-    rows_.push_back(row);
-    Equations out{names_, names_.size(), {}};
-    for (std::size_t i = 0; i < strategy_.balls_mm.size(); ++i)
-      for (const char c : {'x', 'y', 'z'})
-        out.unknowns.push_back("ball" + std::to_string(i + 1) + '_' + c);
-    for (const char c : {'x', 'y', 'z'}) out.unknowns.push_back(std::string("tip_") + c);
-    out.A.resize(static_cast<Index>(rows_.size()), tip_ + 3);
-    for (std::size_t i = 0; i < rows_.size(); ++i)
-      out.A.row(static_cast<Index>(i)) = rows_[i];
-    return out;
+    use(row);
   }
 
  private:
@@ -240,7 +230,7 @@ class Builder {
   std::vector<Parameter> parameters_;
   std::optional<Index> facet_;
   Index tip_ = 0;
-  std::vector<VectorXd> rows_;
+  SambaSize size_;
 };
 
 VectorXd scales(const std::vector<std::string>& unknowns) {
@@ -250,18 +240,27 @@ VectorXd scales(const std::vector<std::string>& unknowns) {
   return s;
 }
 
-/// Rows of N span the null space.  Returns a basis with few components in each vector, by
-/// elimination with complete pivoting.
+/// As many columns of N as it has rows, each the longest across those before it, of equally
+/// long ones the first.  They depend on what the rows span alone, and not on rounding.
+std::vector<Index> pivots(MatrixXd N) {
+  constexpr double kEquallyLong = 1e-6;
+  std::vector<Index> out;
+  while (static_cast<Index>(out.size()) < N.rows()) {
+    const VectorXd length = N.colwise().norm();
+    Index longest = 0;
+    while (length[longest] < (1 - kEquallyLong) * length.maxCoeff()) ++longest;
+    const VectorXd u = N.col(longest) / length[longest];
+    N -= u * (u.transpose() * N).eval();
+    out.push_back(longest);
+  }
+  return out;
+}
+
+/// Orthonormal rows of N span the null space.  Returns a basis with few components in each
+/// vector: each has one of the pivots alone.
 std::vector<NullVector> named(MatrixXd N, const std::vector<std::string>& unknowns) {
   std::vector<NullVector> out;
-  for (Index i = 0; i < N.rows(); ++i) {
-    Index row = 0, column = 0;
-    N.bottomRows(N.rows() - i).cwiseAbs().maxCoeff(&row, &column);
-    N.row(i).swap(N.row(i + row));
-    N.row(i) /= N(i, column);
-    for (Index k = 0; k < N.rows(); ++k)
-      if (k != i) N.row(k) -= N(k, column) * N.row(i);
-  }
+  if (N.rows() > 0) N = N(Eigen::all, pivots(N)).eval().partialPivLu().solve(N).eval();
   for (Index i = 0; i < N.rows(); ++i) {
     VectorXd v = N.row(i).normalized();
     // The first of the largest components is positive, independently of rounding.
@@ -278,18 +277,65 @@ std::vector<NullVector> named(MatrixXd N, const std::vector<std::string>& unknow
   return out;
 }
 
+/// Equations, as they are added, reduced to a triangle R and Q^T b by Householder's
+/// reflections, A = Q R: block by block, each together with the triangle so far.  Q is
+/// orthogonal, so R has the singular values and right singular vectors of A, and
+/// |R x - Q^T b| = |A x - b| for every x.
+/// Source: [Golub 2013], 5.2 and 5.3.
+class Triangle {
+ public:
+  Triangle(Index columns, std::size_t equations)
+      : columns_(columns),
+        block_(std::min(kBlock * (columns + 1), static_cast<Index>(equations)),
+               columns + 1) {}
+
+  void add(const VectorXd& row, double b) {
+    if (filled_ == block_.rows()) reduce();
+    block_.row(filled_).head(columns_) = row;
+    block_(filled_++, columns_) = b;
+  }
+
+  void reduce() {
+    leave_if_asked();
+    auto rows = block_.topRows(filled_);
+    const Eigen::HouseholderQR<Eigen::Ref<MatrixXd>> in_place(rows);
+    rows.triangularView<Eigen::StrictlyLower>().setZero();
+    filled_ = std::min(filled_, columns_ + 1);
+  }
+
+  auto R() const { return block_.topLeftCorner(filled_, columns_); }
+  auto b() const { return block_.col(columns_).head(filled_); }
+
+ private:
+  static constexpr Index kBlock = 5;  // rows of a block by those of the triangle
+  Index columns_, filled_ = 0;
+  MatrixXd block_;
+};
+
+/// @param b  right-hand sides by equation; none: 0.
+Triangle reduced(const Equations& equations, const VectorXd& scale, const VectorXd& b) {
+  Triangle out(scale.size(), equations.count());
+  Index i = 0;
+  equations.each([&](const VectorXd& row) {
+    out.add(row.cwiseQuotient(scale), b.size() > 0 ? b[i++] : 0);
+  });
+  out.reduce();
+  return out;
+}
+
 struct Decomposition {
-  Eigen::JacobiSVD<MatrixXd> svd;
+  Eigen::BDCSVD<MatrixXd> svd;
   Identifiability of;
 };
 
-Decomposition decomposed(const Equations& eq, const VectorXd& scale) {
-  const MatrixXd A = eq.A * scale.cwiseInverse().asDiagonal();
+/// The singular values of R are those of A but for rounding, some 1e-14 of the largest by
+/// Weyl's theorem, which is far below kRankTolerance: the rank is that of A.
+Decomposition decomposed(const Equations& equations, const Triangle& triangle) {
   Decomposition d{
-      Eigen::JacobiSVD<MatrixXd>(A, Eigen::ComputeThinU | Eigen::ComputeFullV),
-      {.unknowns = eq.unknowns,
-       .parameters = eq.parameters,
-       .equations = static_cast<std::size_t>(A.rows()),
+      Eigen::BDCSVD<MatrixXd>(triangle.R(), Eigen::ComputeThinU | Eigen::ComputeFullV),
+      {.unknowns = equations.unknowns(),
+       .parameters = equations.parameters(),
+       .equations = equations.count(),
        .rank = 0,
        .condition = 0,
        .identifiable = {},
@@ -298,10 +344,11 @@ Decomposition decomposed(const Equations& eq, const VectorXd& scale) {
   const auto rank = (s.array() > kRankTolerance * s[0]).count();
   d.of.rank = static_cast<std::size_t>(rank);
   d.of.condition = s[0] / s[rank - 1];
-  const MatrixXd null = d.svd.matrixV().rightCols(A.cols() - rank);
-  for (Index j = 0; j < A.cols(); ++j)
+  const MatrixXd& V = d.svd.matrixV();
+  const MatrixXd null = V.rightCols(V.cols() - rank);
+  for (Index j = 0; j < V.rows(); ++j)
     d.of.identifiable.push_back(null.cols() == 0 || null.row(j).norm() < kMoves);
-  d.of.null_vectors = named(null.transpose(), eq.unknowns);
+  d.of.null_vectors = named(null.transpose(), d.of.unknowns);
   return d;
 }
 
@@ -340,33 +387,49 @@ std::array<double, 9> table_rotation(const Indexation& at) {
   return out;
 }
 
+SambaSize samba_size(const SambaStrategy& strategy,
+                     const std::vector<std::string>& parameters) {
+  SambaSize size{1, parameters.size() + 3 * strategy.balls_mm.size() + 3};
+  for (const Indexation& at : strategy.indexations)
+    size.equations +=
+        strategy.styli_mm.size() * (3 * at.balls.size() + at.pre_moves.size());
+  return size;
+}
+
+bool SambaSize::solvable() const {
+  const auto n = static_cast<double>(unknowns);
+  return static_cast<double>(equations) * n * n <= kMostSambaWork;
+}
+
 Identifiability identifiability(const SambaStrategy& strategy,
                                 const std::vector<std::string>& parameters) {
-  const Equations eq = Builder(strategy, parameters).build();
-  return decomposed(eq, scales(eq.unknowns)).of;
+  const Equations equations(strategy, parameters);
+  return decomposed(equations, reduced(equations, scales(equations.unknowns()), {})).of;
 }
 
 SambaFit samba_fit(const SambaStrategy& strategy,
                    const std::vector<std::string>& parameters,
                    const std::vector<double>& readings_mm,
                    std::optional<double> noise_mm) {
-  const Equations eq = Builder(strategy, parameters).build();
-  if (static_cast<Index>(readings_mm.size()) + 1 != eq.A.rows())
+  const Equations equations(strategy, parameters);
+  if (readings_mm.size() + 1 != equations.count())
     throw std::domain_error("samba_fit: one reading for each equation but the scale bar");
-  const VectorXd scale = scales(eq.unknowns);
-  Decomposition d = decomposed(eq, scale);
-  VectorXd b(eq.A.rows());
+  const VectorXd scale = scales(equations.unknowns());
+  VectorXd b(static_cast<Index>(equations.count()));
   const auto [i, j] = strategy.scale_bar_ends;
   b << Eigen::Map<const VectorXd>(readings_mm.data(), b.size() - 1),
       strategy.scale_bar_mm -
           (column(strategy.balls_mm[j]) - column(strategy.balls_mm[i])).norm();  // (3)
+  const Triangle triangle = reduced(equations, scale, b);
+  Decomposition d = decomposed(equations, triangle);
   const auto rank = static_cast<Index>(d.of.rank);
   const MatrixXd inverse = d.svd.matrixV().leftCols(rank) *
                            d.svd.singularValues().head(rank).cwiseInverse().asDiagonal();
-  const VectorXd y = inverse * (d.svd.matrixU().leftCols(rank).transpose() * b);
-  const double rss = (b - eq.A * y.cwiseQuotient(scale)).squaredNorm();
+  const VectorXd y =
+      inverse * (d.svd.matrixU().leftCols(rank).transpose() * triangle.b());
+  const double rss = (triangle.b() - triangle.R() * y).squaredNorm();
   SambaFit fit{.of = std::move(d.of), .value = {}, .u = {}, .s0_mm = 0, .dof = 0};
-  fit.dof = static_cast<std::size_t>(eq.A.rows() - rank);
+  fit.dof = equations.count() - fit.of.rank;
   if (fit.dof > 0) fit.s0_mm = std::sqrt(rss / static_cast<double>(fit.dof));
   const double noise = noise_mm.value_or(fit.s0_mm);
   for (Index k = 0; k < y.size(); ++k) {
@@ -382,14 +445,17 @@ std::vector<double> samba_readings(const SambaStrategy& strategy,
   std::vector<std::string> names;
   for (const auto& [name, value] : errors)
     if (is_samba_parameter(name)) names.push_back(name);
-  const Equations eq = Builder(strategy, names).build();
-  VectorXd x(eq.A.cols());
-  for (std::size_t j = 0; j < eq.unknowns.size(); ++j) {
-    const auto given = errors.find(eq.unknowns[j]);
+  const Equations equations(strategy, names);
+  const auto unknowns = equations.unknowns();
+  VectorXd x(static_cast<Index>(unknowns.size()));
+  for (std::size_t j = 0; j < unknowns.size(); ++j) {
+    const auto given = errors.find(unknowns[j]);
     x[static_cast<Index>(j)] = given == errors.end() ? 0 : given->second;
   }
-  const VectorXd b = eq.A * x;
-  return {b.begin(), b.end() - 1};
+  std::vector<double> out;
+  equations.each([&](const VectorXd& row) { out.push_back(row.dot(x)); });
+  out.pop_back();  // of the scale bar
+  return out;
 }
 
 std::vector<double> samba_readings(const SambaStrategy& s, const Machine& machine) {
@@ -425,7 +491,7 @@ std::vector<Remedy> remedies(const SambaStrategy& strategy,
   Identifiability best = found;
   std::vector<Remedy> out;
   const auto try_out = [&](std::string what) {
-    if (!size_of(changed, names).solvable()) return;
+    if (!samba_size(changed, names).solvable()) return;
     Identifiability now = identifiability(changed, names);
     if (now.rank <= best.rank) return;
     Remedy remedy{.what = std::move(what), .rank = now.rank, .gains = {}};

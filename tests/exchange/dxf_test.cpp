@@ -7,9 +7,11 @@
 #include <optional>
 #include <random>
 #include <sstream>
+#include <stop_token>
 
 #include "reference_outlines.hpp"
 #include "same_outline.hpp"
+#include "turnwright/base/cancelled.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/exchange/notation.hpp"
 
@@ -485,6 +487,57 @@ TEST(Dxf, BlocksWithinThemselvesDeepOrMultipliedEndInAMessage) {
   }
   many += block("N12", "0\nPOINT\n10\n0\n");
   EXPECT_NE(with(many).find("more than 2000000 entities"), std::string::npos);
+}
+
+// From few entities, each of them as long as the file allows.
+TEST(Dxf, BlocksDrawnOutAreBoundedInBytesToo) {
+  Sheet s;
+  s.group(0, "INSERT").group(2, "N6");
+  const auto with = [&](const std::string& innermost) {
+    std::string all = block("N0", innermost);
+    for (int i = 1; i <= 6; ++i) {
+      std::string eight;
+      for (int k = 0; k < 8; ++k) eight += insert("N" + std::to_string(i - 1));
+      all += block("N" + std::to_string(i), eight);
+    }
+    Sheet sheet = s;
+    return dxf_refusal(sheet.before(blocks(all)).text());
+  };
+  const std::string bound = "more than 50 MB with the blocks drawn out";
+  std::string groups;
+  for (int i = 0; i < 2000; ++i) groups += "1000\n\n";
+  EXPECT_NE(with("0\nPOINT\n8\n0\n" + groups).find(bound), std::string::npos);
+  EXPECT_NE(with("0\nTEXT\n1\n" + std::string(9000, 'x') + "\n").find(bound),
+            std::string::npos);
+  // What is kept of each note and dimension counts, however short it is in the file.
+  for (const char* kept : {"0\nTEXT\n", "0\nDIMENSION\n"}) {
+    std::string twice;
+    for (int i = 0; i < 4; ++i) twice += kept;
+    EXPECT_NE(with(twice).find(bound), std::string::npos) << kept;
+  }
+}
+
+TEST(Dxf, LongNamesOfLayersCountForEveryLineDrawnOut) {
+  const std::string name(20000, 'x'), bound = "more than 50 MB with the blocks drawn out";
+  std::string points;
+  for (int i = 0; i < 3000; ++i) points += "0\nPOINT\n";
+  const auto file_of = [](const std::string& sections, const std::string& entities) {
+    return sections + "0\nSECTION\n2\nENTITIES\n" + entities + "0\nENDSEC\n0\nEOF\n";
+  };
+  const std::string of_block =
+      file_of(blocks(block("A", points)), "0\nINSERT\n2\nA\n8\n" + name + "\n");
+  EXPECT_NE(dxf_refusal(of_block).find(bound), std::string::npos);
+  const std::string of_layer = file_of(
+      "0\nSECTION\n2\nTABLES\n0\nLAYER\n2\n0\n6\n" + name + "\n0\nENDSEC\n", points);
+  EXPECT_NE(dxf_refusal(of_layer).find(bound), std::string::npos);
+}
+
+TEST(Dxf, HearsThatNobodyWaits) {
+  std::stop_source source;
+  source.request_stop();
+  const std::stop_token token = source.get_token();
+  const Listening listening(token);
+  EXPECT_THROW(read_dxf(dxf_file("motor-shaft-full")), Cancelled);
 }
 
 TEST(Dxf, MillionLinesEndInAMessageAndAMillionNotesInAnAnswer) {

@@ -2,10 +2,13 @@
 
 #include <cctype>
 #include <random>
+#include <stop_token>
 #include <string>
 
 #include "step_file.hpp"
+#include "turnwright/base/cancelled.hpp"
 #include "turnwright/base/errors.hpp"
+#include "turnwright/exchange/notation.hpp"
 #include "turnwright/exchange/step.hpp"
 
 namespace turnwright::exchange {
@@ -103,6 +106,33 @@ TEST(HostileStep, LoopsSharedByAllFacesAreRefused) {
     data += "#" + std::to_string(1000 + i) + "=ADVANCED_FACE('',(#23),#30,.T.);\n";
   const StepFile file(data);
   EXPECT_NE(answer(file.text).find("edges that each bound two faces"), std::string::npos);
+}
+
+/// One shell, however often a body or oriented shells refer to it, gives its faces once.
+TEST(HostileStep, ShellsReferredToManyTimesAreOne) {
+  const auto text = step_text(kShaft);
+  const auto brep = text.find("MANIFOLD_SOLID_BREP(");
+  const auto shell =
+      text.substr(text.find('#', brep), text.find(')', brep) - text.find('#', brep));
+  std::string turned, shells = shell;
+  for (int i = 0; i < 30000; ++i) {
+    const auto id = "#" + std::to_string(1000000 + i);
+    turned += id + "=ORIENTED_CLOSED_SHELL('',*," + shell + ",.T.);\n";
+    shells += "," + id + "," + shell;
+  }
+  auto many = text;
+  many.replace(brep, text.find(';', brep) - brep,
+               "SHELL_BASED_SURFACE_MODEL('',(" + shells + "))");
+  many.insert(many.rfind("ENDSEC"), turned);
+  EXPECT_EQ(notation(read_step(many)), notation(read_step(text)));
+}
+
+TEST(HostileStep, HearsThatNobodyWaits) {
+  std::stop_source source;
+  source.request_stop();
+  const std::stop_token token = source.get_token();
+  const Listening listening(token);
+  EXPECT_THROW(read_step(step_text(kShaft)), Cancelled);
 }
 
 }  // namespace

@@ -45,6 +45,19 @@ const std::vector<std::string>& samba_parameters();
 /// axis' shifts (EYXb).
 bool is_samba_parameter(const std::string& name);
 
+/// How large the equations (1) to (3) below are.
+struct SambaSize {
+  std::size_t equations = 0, unknowns = 0;
+  /// Whether equations times unknowns squared are at most kMostSambaWork.
+  bool solvable() const;
+};
+
+/// Of one solution, which takes some three times as many operations: about two seconds.
+inline constexpr double kMostSambaWork = 4e9;
+
+SambaSize samba_size(const SambaStrategy& strategy,
+                     const std::vector<std::string>& parameters);
+
 /// A direction of unit length in the space of unknowns that changes no reading: name ->
 /// component [mm, rad times 100 mm].
 using NullVector = std::map<std::string, double>;
@@ -79,7 +92,8 @@ struct Identifiability {
 /// Source: [Mayer 2012], the method as [Mohammed 2019] describes it; equations derived
 /// here.
 /// @throws std::domain_error for unknown or repeated names, or a missing ball or stylus;
-///   ModelRangeError where equations times unknowns exceed 10 million, here and below.
+///   ModelRangeError where equations times unknowns squared exceed kMostSambaWork;
+///   Cancelled; here and below.
 Identifiability identifiability(const SambaStrategy& strategy,
                                 const std::vector<std::string>& parameters);
 

@@ -170,6 +170,16 @@ void read_readings(Reader& r, CalibrationRequest& q) {
     }
 }
 
+void check_size(Reader& r, const CalibrationRequest& q) {
+  const SambaSize size = samba_size(q.strategy, q.parameters);
+  if (!size.solvable())
+    r.problem_at("strategy",
+                 say("at most {:.0e} equations times unknowns squared; here are {} "
+                     "equations of {} unknowns",
+                     kMostSambaWork, size.equations, size.unknowns),
+                 "range");
+}
+
 CalibrationRequest read_calibration_request(const json& document) {
   Problems problems{.document = "samba"};
   Reader r = Reader(document, problems).as_object();
@@ -179,6 +189,7 @@ CalibrationRequest read_calibration_request(const json& document) {
   q.parameters = read_parameters(r);
   q.noise_mm = r.optional_number("noise_mm", above_up_to(0, 10, "mm"));
   if (problems.list.empty()) {
+    check_size(r, q);
     read_readings(r, q);
   } else {
     for (const char* key : {"sign", "frame", "readings_mm"}) r.has(key);

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "thread_undercut.hpp"
+#include "turnwright/base/cancelled.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/base/language.hpp"
 #include "turnwright/base/units.hpp"
@@ -238,10 +239,14 @@ bool take_edge(Items& items, std::size_t i, double join_mm) {
 
 void take_edges(Items& items, double join_mm) {
   for (std::size_t i = 1; i + 1 < items.size(); ++i)
-    if (dx(items[i]) < -join_mm && take_recess(items, i, join_mm))
+    if (dx(items[i]) < -join_mm && take_recess(items, i, join_mm)) {
+      leave_if_asked();
       i = 0;  // positions have moved
-  for (std::size_t i = 1; i + 1 < items.size(); ++i)
+    }
+  for (std::size_t i = 1; i + 1 < items.size(); ++i) {
+    leave_if_asked();
     if (take_edge(items, i, join_mm)) i = std::max<std::size_t>(i, 2) - 2;
+  }
 }
 
 Band band_of(const Item& item, double join_mm) {

@@ -5,6 +5,7 @@
 #include "base/say.hpp"
 #include "dxf_text.hpp"
 #include "exchange/text/notation_words.hpp"
+#include "turnwright/base/cancelled.hpp"
 #include "turnwright/base/pattern.hpp"
 
 namespace turnwright::exchange::dxf {
@@ -43,8 +44,14 @@ class Dimensions {
       : out_(out), view_(view), z0_(z0_mm), within_(10 * join_mm), placed_(placed(out)) {}
 
   void add() {
-    for (const Dimension& d : view_.drawn->dimensions) add(d);
-    for (const Note& n : view_.drawn->notes) add(n);
+    for (const Dimension& d : view_.drawn->dimensions) {
+      leave_if_asked();
+      add(d);
+    }
+    for (const Note& n : view_.drawn->notes) {
+      leave_if_asked();
+      add(n);
+    }
     if (listed_ > kMostListed)
       out_.ignored.push_back(
           {"", say("{} texts and dimensions in all are not used.", listed_)});

@@ -6,13 +6,15 @@
 
 #include "base/say.hpp"
 #include "dxf_strokes.hpp"
+#include "turnwright/base/cancelled.hpp"
 #include "turnwright/base/units.hpp"
 
 namespace turnwright::exchange::dxf {
 namespace {
 
 constexpr std::size_t kMostStrokes = 5000, kDeepestBlock = 16;
-constexpr std::size_t kMostEntities = 2'000'000;  // with those of blocks drawn out
+constexpr std::size_t kMostEntities = 2'000'000;   // with those of blocks drawn out
+constexpr std::size_t kMostRepeated = 50'000'000;  // bytes of blocks drawn out
 
 bool is_curve(std::string_view type) {
   return type == "LINE" || type == "ARC" || type == "LWPOLYLINE" || type == "POLYLINE";
@@ -55,7 +57,10 @@ class Drawing {
       if (++count > kMostEntities)
         refuse("", say("more than {} entities", kMostEntities),
                tr("the drawing of one part"));
-      add((*f.entities)[f.next++]);
+      leave_if_asked();
+      const Entity& e = (*f.entities)[f.next++];
+      if (f.block) repeat(e.body.size());
+      add(e);
     }
     for (const auto& [text, n] : left_out_)
       out_.ignored.push_back({"", say("{} x {}: not read.", n, text)});
@@ -64,6 +69,14 @@ class Drawing {
 
  private:
   const Frame& frame() const { return frames_.back(); }
+
+  // Counts bytes of the file that may be read, or kept, more than once.
+  void repeat(std::size_t bytes) {
+    repeated_ += bytes;
+    if (repeated_ > kMostRepeated)
+      refuse("", say("more than {} MB with the blocks drawn out", kMostRepeated / 1e6),
+             tr("the drawing of one part"));
+  }
 
   void add(const Entity& e) {
     std::string_view layer_name = "0", linetype_name = "BYLAYER";
@@ -76,13 +89,15 @@ class Drawing {
       if (g->code == 6) linetype_name = g->value;
     }
     std::string layer = capital(layer_name), linetype = capital(linetype_name);
-    if (layer == "0") layer = frame().layer;
+    if (layer == "0") repeat((layer = frame().layer).size());
     const auto known = file_.layers.find(layer);
     if (known != file_.layers.end() && !known->second.visible)
       return leave(say("entity of the hidden layer {}", layer));
-    if (linetype == "BYBLOCK") linetype = frame().linetype;
-    if (linetype == "BYLAYER" || linetype.empty())
+    if (linetype == "BYBLOCK") repeat((linetype = frame().linetype).size());
+    if (linetype == "BYLAYER" || linetype.empty()) {
       linetype = known == file_.layers.end() ? "" : capital(known->second.linetype);
+      repeat(linetype.size());
+    }
     const Role role = role_of(layer, linetype);
     if (is_curve(e.type))
       add_curve(e, role);
@@ -156,6 +171,7 @@ class Drawing {
   }
 
   void add_dimension(const Entity& e) {
+    if (frame().block) repeat(sizeof(Dimension));
     const Affine& to_mm = frame().to_mm;
     constexpr long kKind = 7;
     Dimension d;
@@ -208,6 +224,7 @@ class Drawing {
 
   // A text of more than 250 bytes stands in pieces before its last one.
   void add_note(const Entity& e) {
+    if (frame().block) repeat(sizeof(Note));
     std::string text;
     Groups groups = e.groups();
     while (const auto g = groups.next()) {
@@ -223,6 +240,7 @@ class Drawing {
   const File& file_;
   Drawn out_;
   std::vector<Frame> frames_;
+  std::size_t repeated_ = 0;
   std::map<std::string, std::size_t> left_out_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <utility>
 
 #include "exchange/text/notation_words.hpp"
 #include "turnwright/base/errors.hpp"
@@ -82,11 +83,12 @@ class Sections {
 
   void read_header() {
     std::string variable;
+    bool first = false;
     for (auto g = need("ENDSEC"); !ends(g);
          g = need(to_translate("the end of the section, ENDSEC")))
       if (g.code == 9)
-        variable = g.value;
-      else
+        variable = g.value, first = true;
+      else if (std::exchange(first, false))
         out_.header.emplace(variable, g);
   }
 

@@ -3,6 +3,8 @@
 #include <numbers>
 #include <unordered_map>
 
+#include "turnwright/base/cancelled.hpp"
+
 namespace turnwright::exchange::dxf {
 namespace {
 
@@ -94,10 +96,14 @@ class Joiner {
     upright_.resize(g_.nodes.size());
     std::vector<std::vector<Node>> chains;
     for (std::size_t i = 0; i < strokes_.size(); ++i) {
+      leave_if_asked();
       chains.push_back(chain(i));
       for (const Node n : chains.back()) settle(n, strokes_[i]);
     }
-    for (std::size_t i = 0; i < strokes_.size(); ++i) add_links(strokes_[i], chains[i]);
+    for (std::size_t i = 0; i < strokes_.size(); ++i) {
+      leave_if_asked();
+      add_links(strokes_[i], chains[i]);
+    }
     return std::move(g_);
   }
 

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "base/say.hpp"
+#include "turnwright/base/cancelled.hpp"
 
 namespace turnwright::exchange::dxf {
 namespace {
@@ -163,6 +164,7 @@ class HalfReader {
     std::vector<std::string> places;
     for (std::uint32_t k = 0; k < g().links.size() && places.size() < kNamed; ++k) {
       if (!contour(k) || used_[k]) continue;
+      leave_if_asked();
       for (const Node n : {g().links[k].from, g().links[k].to})
         if (place(n).y > outside_mm(place(n).x) + 2 * join_) {
           places.push_back(
@@ -354,9 +356,11 @@ std::optional<Place> difference(const Half& a, const Half& b,
     };
     return std::any_of((b.*chain).begin(), (b.*chain).end(), near);
   };
-  for (const Link& of_a : a.*chain)
+  for (const Link& of_a : a.*chain) {
+    leave_if_asked();
     for (const Node end : {of_a.from, of_a.to})
       if (!lies_there(a.graph.nodes[end])) return a.graph.nodes[end];
+  }
   return std::nullopt;
 }
 

@@ -137,10 +137,18 @@ std::string in_utf8(std::string_view s) {
 }
 
 std::string shown_text(std::string_view text) {
-  std::string out = in_utf8(TextReader(text).read());
-  for (const std::string_view sign : {"∅", "⌀"})
-    for (auto at = out.find(sign); at != std::string::npos; at = out.find(sign))
-      out.replace(at, sign.size(), "Ø");
+  const std::string read = in_utf8(TextReader(text).read());
+  const std::string_view rest = read;
+  std::string out;
+  for (std::size_t i = 0; i < rest.size();) {
+    const auto sign = rest.substr(i, std::string_view("∅").size());
+    const bool diameter = sign == "∅" || sign == "⌀";
+    if (diameter)
+      out += "Ø";
+    else
+      out += rest[i];
+    i += diameter ? sign.size() : 1;
+  }
   return out;
 }
 

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
+#include <utility>
 
 #include "base/say.hpp"
 #include "exchange/records/given_name.hpp"
 #include "exchange/records/step_unit.hpp"
+#include "turnwright/base/cancelled.hpp"
 #include "turnwright/base/errors.hpp"
 
 namespace turnwright::exchange {
@@ -44,16 +47,18 @@ std::optional<Placed> placed(const Instance& item) {
   return std::nullopt;
 }
 
-/// The representations that are equal to this one, itself first: a solid's and, where
-/// assemblies are written, that of its product.
+/// The representations that are equal to this one, each once, itself first: a solid's and,
+/// where assemblies are written, that of its product.
 std::vector<Instance> equal_representations(const Instance& representation) {
   std::vector<Instance> all{representation};
+  std::set<Instance> known{representation};
   for (const auto& user : representation.users()) {
     const auto relation = user.find("SHAPE_REPRESENTATION_RELATIONSHIP");
     if (!relation || relation->size() < 4) continue;
     for (const std::size_t side : {2U, 3U})
       if ((*relation)[side].is(ValueKind::reference))
-        all.push_back((*relation)[side].instance());
+        if (const auto other = (*relation)[side].instance(); known.insert(other).second)
+          all.push_back(other);
   }
   return all;
 }
@@ -117,9 +122,11 @@ Instance chosen(const std::vector<Instance>& all, const std::string& body) {
     refuse_file(tr("no solid and no shell"), tr("the solid of a turned part"));
   if (body.empty() && all.size() == 1) return all[0];
   std::vector<Instance> same;
-  for (std::size_t i = 0; i < all.size() && !body.empty(); ++i)
+  for (std::size_t i = 0; i < all.size() && !body.empty(); ++i) {
+    leave_if_asked();
     if (name_of_item(all[i]) == body || name_of_product(all[i]) == body)
       same.push_back(all[i]);
+  }
   for (std::size_t i = 0; i < all.size() && same.empty(); ++i)
     if (std::to_string(i + 1) == body) return all[i];
   if (same.size() == 1) return same[0];
@@ -143,14 +150,20 @@ void read_units(const Instance& item, const Exchange& file, Body& body) {
       (unit->quantity == Quantity::length ? body.mm : body.rad) = unit->size;
 }
 
+/// Shells whose faces are in the body, with the direction of their normals: a shell may be
+/// referred to any number of times.
+using Shells = std::set<std::pair<Instance, bool>>;
+
 /// @param outward  whether normals of the shell's faces point out of the material
-void add_shell(Instance shell, bool outward, Body& body) {
+void add_shell(Instance shell, bool outward, Shells& added, Body& body) {
+  leave_if_asked();
   for (const auto name : {"ORIENTED_CLOSED_SHELL", "ORIENTED_OPEN_SHELL"})
     if (const auto turned = shell.find(name)) {
       outward = outward == (*turned)[3].boolean();
       shell = (*turned)[2].instance();
       break;
     }
+  if (!added.emplace(shell, outward).second) return;
   const auto record =
       shell.is("OPEN_SHELL") ? shell.as("OPEN_SHELL") : shell.as("CLOSED_SHELL");
   const auto faces = record[record.size() - 1];
@@ -166,23 +179,24 @@ void add_shell(Instance shell, bool outward, Body& body) {
 Parameter last(const Record& record) { return record[record.size() - 1]; }
 
 void add_faces(const Instance& item, Body& body) {
+  Shells added;
   if (const auto model = item.find("SHELL_BASED_SURFACE_MODEL")) {
     const auto shells = last(*model);
     for (std::size_t i = 0; i < shells.size(); ++i)
-      add_shell(shells[i].instance(), true, body);
+      add_shell(shells[i].instance(), true, added, body);
     return;
   }
   const auto hollow = item.find("BREP_WITH_VOIDS");
   if (const auto brep = item.find("MANIFOLD_SOLID_BREP"))
-    add_shell(last(*brep).instance(), true, body);
+    add_shell(last(*brep).instance(), true, added, body);
   else if (hollow && hollow->size() >= 2)
-    add_shell((*hollow)[hollow->size() - 2].instance(), true, body);
+    add_shell((*hollow)[hollow->size() - 2].instance(), true, added, body);
   else
     item.record(0).refuse(tr("facets"), tr("a solid with exact faces"));
   if (!hollow) return;
   const auto voids = last(*hollow);
   for (std::size_t i = 0; i < voids.size(); ++i)
-    add_shell(voids[i].instance(), true, body);
+    add_shell(voids[i].instance(), true, added, body);
 }
 
 }  // namespace

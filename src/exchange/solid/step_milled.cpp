@@ -11,6 +11,7 @@
 #include "base/say.hpp"
 #include "exchange/contour/elements.hpp"
 #include "step_cross_hole.hpp"
+#include "turnwright/base/cancelled.hpp"
 
 namespace turnwright::exchange {
 namespace {
@@ -134,6 +135,7 @@ void add_milled(const std::vector<Face>& faces, const Contour& contour, const Ax
                 Outline& outline) {
   std::size_t more = 0;
   for (const auto& group : groups(faces, contour.used)) {
+    leave_if_asked();
     const auto hole = cross_hole(group, axis);
     const auto places = hole ? std::vector{*hole} : pockets(group, axis);
     bool understood = !places.empty();

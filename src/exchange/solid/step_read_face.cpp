@@ -6,6 +6,7 @@
 #include "base/say.hpp"
 #include "step_face.hpp"
 #include "step_geometry.hpp"
+#include "turnwright/base/cancelled.hpp"
 #include "turnwright/base/errors.hpp"
 
 namespace turnwright::exchange {
@@ -90,6 +91,7 @@ std::vector<Face> step_faces(const Exchange& file, const Body& body) {
   std::vector<Face> faces;
   std::vector<Problem> problems;
   for (const auto& use : body.faces) {
+    leave_if_asked();
     try {
       faces.push_back(reader.face(use));
     } catch (const InputError& e) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "turnwright/base/cancelled.hpp"
+
 namespace turnwright::exchange {
 namespace {
 
@@ -160,9 +162,12 @@ std::optional<TurnedSide> straight(const Face& face, const Axis& axis, const Rim
 std::optional<Point> widest(const Rim& rim, bool ahead) {
   std::optional<Point> at;
   double most = 0;
-  for (const auto& ring : rim.rings)
-    if (const double turn = round_rad(rim, ring.at); ring.ahead == ahead && turn > most)
+  for (const auto& ring : rim.rings) {
+    if (ring.ahead != ahead) continue;
+    leave_if_asked();
+    if (const double turn = round_rad(rim, ring.at); turn > most)
       at = ring.at, most = turn;
+  }
   return at;
 }
 
@@ -254,6 +259,7 @@ std::optional<TurnedSide> side_of(const Face& face, std::size_t index, const Axi
 std::vector<TurnedSide> merged(std::vector<TurnedSide> sides) {
   std::vector<TurnedSide> out;
   for (auto& side : sides) {
+    leave_if_asked();
     // What joins two that were apart takes both.
     for (std::size_t i = 0; i < out.size();) {
       if (!same_surface(out[i], side)) {

@@ -117,6 +117,24 @@ TEST(SambaDoor, TellsEveryFaultWithItsPlace) {
       "/strategy/facet_normal");
 }
 
+TEST(SambaDoor, RefusesWhatWouldTakeMinutes) {
+  json request = example(0);
+  json& s = request["strategy"];
+  json tips = json::array(), seen = json::array();
+  for (int i = 0; i < 10; ++i) tips.push_back({0, 0, -10 * i});
+  for (int i = 0; i < 100; ++i) {
+    seen.push_back(i + 1);
+    if (i > 5) s["balls_mm"].push_back({i, 10, 20});
+  }
+  s["indexations_deg"] = json(9, {0, 90});
+  s["balls_seen"] = json(9, seen);
+  s["pre_moves"] = json::object();
+  s["styli_mm"] = tips;
+  EXPECT_EQ(refused(request),
+            "samba: /strategy: got an object, expected at most 4e+09 equations times "
+            "unknowns squared; here are 27001 equations of 405 unknowns");
+}
+
 TEST(SambaDoor, SchemaAndReaderAgreeOnEverySlip) {
   // How many, and which of them there are, is beyond the schema.
   const auto beyond = [](const std::string& what) {
