@@ -245,11 +245,12 @@ Chamfer roughed(const Chamfer& c) {
 
 std::vector<InnerShoulder> inner_shoulders(const Drawing& d) {
   std::vector<InnerShoulder> all;
+  const auto ends = inner_left_ends_mm(d);
   for (std::size_t a = 0; a < d.inner.size(); ++a)
     for (std::size_t b = 0; b < d.inner.size(); ++b) {
       const auto &left = d.inner[a], &right = d.inner[b];
-      const double z = inner_left_z_mm(d, b);
-      if (a == b || std::abs(inner_left_z_mm(d, a) + left.length_mm - z) > kSame_mm ||
+      const double z = ends[b];
+      if (a == b || std::abs(ends[a] + left.length_mm - z) > kSame_mm ||
           is_groove(left) || is_groove(right) ||
           std::abs(left.right_mm - right.left_mm) <= kSame_mm)
         continue;
@@ -348,10 +349,35 @@ double inner_left_z_mm(const Drawing& drawing, std::size_t i) {
   return length_mm(drawing) - depth - drawing.inner[i].length_mm;
 }
 
+std::vector<double> left_ends_mm(const Drawing& d) {
+  std::vector<double> ends;
+  ends.reserve(d.outer.size());
+  double z = 0;
+  for (const auto& e : d.outer) {
+    ends.push_back(z);
+    z += e.length_mm;
+  }
+  return ends;
+}
+
+std::vector<double> inner_left_ends_mm(const Drawing& d) {
+  std::vector<double> ends;
+  ends.reserve(d.inner.size());
+  const double L = length_mm(d);
+  double from_left = 0, from_right = 0;  // depths of the outer ends
+  for (const auto& e : d.inner) {
+    double& depth = e.from == End::left ? from_left : from_right;
+    ends.push_back(e.from == End::left ? depth : L - depth - e.length_mm);
+    depth += e.length_mm;
+  }
+  return ends;
+}
+
 double largest_hole_mm(const Drawing& d, double z0_mm, double z1_mm) {
   double most = d.stock.inner_mm;
+  const auto ends = inner_left_ends_mm(d);
   for (std::size_t i = 0; i < d.inner.size(); ++i) {
-    const double z0 = inner_left_z_mm(d, i), z1 = z0 + d.inner[i].length_mm;
+    const double z0 = ends[i], z1 = z0 + d.inner[i].length_mm;
     if (z0 < z1_mm && z1 > z0_mm)
       most = std::max({most, d.inner[i].left_mm, d.inner[i].right_mm});
   }
@@ -360,8 +386,9 @@ double largest_hole_mm(const Drawing& d, double z0_mm, double z1_mm) {
 
 double least_hole_mm(const Drawing& d, double z0_mm, double z1_mm) {
   double least = INFINITY, hollow = 0;
+  const auto ends = inner_left_ends_mm(d);
   for (std::size_t i = 0; i < d.inner.size(); ++i) {
-    const double z0 = inner_left_z_mm(d, i), z1 = z0 + d.inner[i].length_mm;
+    const double z0 = ends[i], z1 = z0 + d.inner[i].length_mm;
     if (!(z0 < z1_mm && z1 > z0_mm)) continue;
     least = std::min({least, d.inner[i].left_mm, d.inner[i].right_mm});
     hollow += std::min(z1, z1_mm) - std::max(z0, z0_mm);

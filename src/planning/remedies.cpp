@@ -136,8 +136,8 @@ std::vector<Variant> variants(const PreparedPart& p, const Attempt* attempt) {
 
 // The plan of a changed request, if there is one.
 std::optional<ProcessPlan> plan_of(PlanRequest request) {
+  if (!not_made(request).empty()) return {};
   const auto changed = prepare(std::move(request));
-  if (!changed.work.unreachable.empty()) return {};
   if (Feasibility oracle(changed);
       !oracle.with(RelaxationFactors(oracle.limits().size(), 1)))
     return {};

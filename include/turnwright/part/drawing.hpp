@@ -266,6 +266,10 @@ StockRange stock_of(const Drawing& drawing, std::size_t i);
 inline constexpr double kRunOut_mm = 5;
 /// Left end z [mm] of inner element i.
 double inner_left_z_mm(const Drawing& drawing, std::size_t i);
+/// Left ends z [mm] of all outer elements at once, each equal to its `left_z_mm`.
+std::vector<double> left_ends_mm(const Drawing& drawing);
+/// And of all inner elements, each equal to its `inner_left_z_mm`.
+std::vector<double> inner_left_ends_mm(const Drawing& drawing);
 /// Largest diameter [mm] of the stock's hole and the inner elements between two positions.
 double largest_hole_mm(const Drawing& drawing, double z0_mm, double z1_mm);
 /// And the narrowest; 0 if the part is solid somewhere between them.

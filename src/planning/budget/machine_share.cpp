@@ -8,6 +8,7 @@
 #include "common_datum.hpp"
 #include "planning/clamping/made_surfaces.hpp"
 #include "planning/clamping/positions.hpp"
+#include "turnwright/base/cancelled.hpp"
 #include "turnwright/base/interval.hpp"
 #include "turnwright/base/units.hpp"
 #include "turnwright/volumetric/lathe_part.hpp"
@@ -96,6 +97,7 @@ class Bench {
 
   Surface surface(const std::string& id, const Place& at) const {
     constexpr std::size_t kAlong = 21;
+    leave_if_asked();
     const auto e = part::extent(p_.drawing, id);
     return turned(kinematics_, tool_, e ? element(p_, id, *e, at) : face(p_, id, at),
                   around_, kAlong);

@@ -47,13 +47,15 @@ double end_z_mm(const part::Drawing& d, const Element& e, End end) {
 }
 
 std::optional<Element> neighbour(const part::Drawing& d, const Element& e, End end) {
-  const std::size_t count = e.inner ? d.inner.size() : d.outer.size();
-  const double z = end_z_mm(d, e, end);
-  for (std::size_t i = 0; i < count; ++i) {
-    const Element next{e.inner, i};
-    if (i != e.index && std::abs(end_z_mm(d, next, part::opposite(end)) - z) < kNoWall_mm)
-      return next;
-  }
+  const auto left_mm = e.inner ? part::inner_left_ends_mm(d) : part::left_ends_mm(d);
+  const auto at_mm = [&](std::size_t i, End which) {
+    if (which == End::left) return left_mm[i];
+    return left_mm[i] + (e.inner ? d.inner[i].length_mm : d.outer[i].length_mm);
+  };
+  const double z = at_mm(e.index, end);
+  for (std::size_t i = 0; i < left_mm.size(); ++i)
+    if (i != e.index && std::abs(at_mm(i, part::opposite(end)) - z) < kNoWall_mm)
+      return Element{e.inner, i};
   return std::nullopt;
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "edges.hpp"
@@ -33,24 +35,29 @@ struct Item {
   double rad() const { return std::atan2(h1 - h0, z0 - z1); }
 };
 
-// Distance [mm] from the drawn radius to the middle of the size's limits, where programs
-// cut it; 0 for an element with a groove, thread or arc.
-double to_middle_mm(const PreparedPart& p, const std::string& element) {
-  if (part::has_cut(p.drawing, element)) return 0;
-  for (const auto& t : p.drawing.tolerances)
-    if (t.kind == part::ToleranceKind::diameter && t.of == element && t.limits)
-      return (t.limits->lower_mm + t.limits->upper_mm) / 4;
-  return 0;
+// Distances [mm] from the drawn radii of elements to the middles of their sizes' limits,
+// where programs cut them.
+std::unordered_map<std::string_view, double> to_middles_mm(const part::Drawing& d) {
+  std::unordered_map<std::string_view, double> all;
+  for (const auto& t : d.tolerances)
+    if (t.kind == part::ToleranceKind::diameter && t.limits)
+      all.try_emplace(t.of, (t.limits->lower_mm + t.limits->upper_mm) / 4);
+  return all;
 }
 
 std::vector<Item> items_of(const PreparedPart& p, std::size_t setup, bool inner) {
   const auto& d = p.drawing;
   const bool left = p.setups[setup].hold == part::End::left;
   const double sign = left ? 1 : -1, out = inner ? -1 : 1, free = free_z_mm(p, setup);
+  const auto to_middles = to_middles_mm(d);
+  const auto by_mm = [&](const auto& e) {  // 0 of one with a groove, thread or arc
+    const auto found = to_middles.find(e.id);
+    return e.cut || found == to_middles.end() ? 0 : found->second;
+  };
   std::vector<Item> all;
   const auto add = [&](const auto& e, std::size_t i, double left_z) {
     const double a = sign * (left_z - free), b = sign * (left_z + e.length_mm - free);
-    const double by = to_middle_mm(p, e.id);
+    const double by = by_mm(e);
     const double ha = out * (e.left_mm / 2 + by), hb = out * (e.right_mm / 2 + by);
     Item item = a > b ? Item{i, a, ha, b, hb} : Item{i, b, hb, a, ha};
     item.cut_later = e.cut && part::replaces_blank(e.cut->kind);
@@ -58,12 +65,9 @@ std::vector<Item> items_of(const PreparedPart& p, std::size_t setup, bool inner)
     item.mirrored = !left;
     all.push_back(item);
   };
-  if (inner)
-    for (std::size_t i = 0; i < d.inner.size(); ++i)
-      add(d.inner[i], i, part::inner_left_z_mm(d, i));
-  else
-    for (std::size_t i = 0; i < d.outer.size(); ++i)
-      add(d.outer[i], i, part::left_z_mm(d, i));
+  const auto left_mm = inner ? part::inner_left_ends_mm(d) : part::left_ends_mm(d);
+  for (std::size_t i = 0; i < left_mm.size(); ++i)
+    inner ? add(d.inner[i], i, left_mm[i]) : add(d.outer[i], i, left_mm[i]);
   std::sort(all.begin(), all.end(),
             [](const Item& a, const Item& b) { return a.z0 > b.z0; });
   return all;
@@ -297,12 +301,14 @@ Home home_of(const PreparedPart& p, double front) {
   return {p.drawing.stock.outer_mm / 2 + kChange_mm, front + kChange_mm};
 }
 
+namespace {
+
+// Of element k in the tool's order.
 Surroundings surroundings(const PreparedPart& p, std::size_t setup, Clamping clamping,
-                          const SetupWork& work, const Element& element) {
-  const auto all = items_of(p, setup, element.inner);
-  std::size_t k = 0;
-  while (all[k].index != element.index) ++k;
+                          const SetupWork& work, bool inner, const std::vector<Item>& all,
+                          std::size_t k) {
   const auto& e = all[k];
+  const Element element{inner, e.index};
   Surroundings s;
   s.inner = element.inner;
   s.stock_h = p.drawing.stock.outer_mm / 2;
@@ -345,6 +351,25 @@ Surroundings surroundings(const PreparedPart& p, std::size_t setup, Clamping cla
   s.behind = passage(p, setup, work, s.inner, e, next);
   if (s.behind && s.behind->rad == 0) s.behind->rad = next.rad();
   return s;
+}
+
+}  // namespace
+
+Surroundings surroundings(const PreparedPart& p, std::size_t setup, Clamping clamping,
+                          const SetupWork& work, const Element& element) {
+  const auto all = items_of(p, setup, element.inner);
+  std::size_t k = 0;
+  while (all[k].index != element.index) ++k;
+  return surroundings(p, setup, clamping, work, element.inner, all, k);
+}
+
+std::vector<Surroundings> outer_surroundings(const PreparedPart& p, std::size_t setup,
+                                             Clamping clamping, const SetupWork& work) {
+  const auto items = items_of(p, setup, false);
+  std::vector<Surroundings> all(items.size());
+  for (std::size_t k = 0; k < items.size(); ++k)
+    all[items[k].index] = surroundings(p, setup, clamping, work, false, items, k);
+  return all;
 }
 
 bool runs_on(const Passage& g, double r, double minor_rad) {

@@ -100,6 +100,9 @@ struct Surroundings {
 };
 Surroundings surroundings(const PreparedPart& plan, std::size_t setup, Clamping clamping,
                           const SetupWork& work, const Element& element);
+/// Those of all outer elements at once, in the drawing's order.
+std::vector<Surroundings> outer_surroundings(const PreparedPart& plan, std::size_t setup,
+                                             Clamping clamping, const SetupWork& work);
 
 /// Length [mm] along the edge of the wall behind, `wall_chamfer`, of which what lies in stock
 /// replaces a piece of wall; of a rounded edge, where the tip begins below it, a corner's

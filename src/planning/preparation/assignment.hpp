@@ -1,4 +1,5 @@
 #pragma once
+#include "reach.hpp"
 #include "turnwright/planning/prepared_part.hpp"
 
 /// Assignment of surfaces to setups.
@@ -12,6 +13,11 @@ namespace turnwright::planning {
 /// is narrower.
 /// Given operations decide the setup; a surface that none of them makes is unreachable.
 /// Needs `grips_mm` of the part.
+/// @throws Cancelled if a stop was requested.
 Assignment assign(const PreparedPart& part);
+/// The same with the ways of that part, which its grips do not change.
+Assignment assign(const PreparedPart& part, const Ways& ways);
+/// How many surfaces no setup can cut: of `unreachable`.
+std::size_t left_out(const PreparedPart& part, const Ways& ways);
 
 }  // namespace turnwright::planning

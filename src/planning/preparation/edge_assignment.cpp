@@ -98,7 +98,7 @@ std::optional<std::size_t> alone_in(const PreparedPart& p,
 
 template <class List>
 void assign(const PreparedPart& p, const List& elements, bool inner,
-            std::vector<SetupWork>& setups, std::vector<std::string>& not_cut) {
+            std::vector<SetupWork>& setups, std::vector<Reason>& not_cut) {
   for (std::size_t i = 0; i < elements.size(); ++i)
     for (const End end : {End::left, End::right}) {
       const auto& e = elements[i];
@@ -108,14 +108,16 @@ void assign(const PreparedPart& p, const List& elements, bool inner,
       if (const auto s = alone_in(p, setups, {inner, i}, end))
         (inner ? setups[*s].inner_chamfers : setups[*s].outer_chamfers).push_back(i);
       else
-        not_cut.push_back(say(
-            "{} at {} cannot be cut in any setup: none makes {} or the surface before "
-            "that end, with the end free, enough wall for the tool and room before the "
-            "jaws",
-            chamfer->round ? tr("the rounded edge") : tr("the chamfer"),
-            end == End::left ? say("the left end of {}", e.id)
-                             : say("the right end of {}", e.id),
-            e.id));
+        not_cut.emplace_back([&e, &chamfer, end] {
+          return say(
+              "{} at {} cannot be cut in any setup: none makes {} or the surface before "
+              "that end, with the end free, enough wall for the tool and room before the "
+              "jaws",
+              chamfer->round ? tr("the rounded edge") : tr("the chamfer"),
+              end == End::left ? say("the left end of {}", e.id)
+                               : say("the right end of {}", e.id),
+              e.id);
+        });
     }
 }
 
@@ -135,17 +137,17 @@ void leave_to_the_hand(PreparedPart& p) {
   of(p.drawing.inner, true);
 }
 
-std::vector<std::string> assign_chamfers(const PreparedPart& p,
-                                         std::vector<SetupWork>& setups) {
-  std::vector<std::string> not_cut;
+std::vector<Reason> assign_chamfers(const PreparedPart& p,
+                                    std::vector<SetupWork>& setups) {
+  std::vector<Reason> not_cut;
   assign(p, p.drawing.outer, false, setups, not_cut);
   assign(p, p.drawing.inner, true, setups, not_cut);
   return not_cut;
 }
 
-std::vector<std::string> undercuts_not_cut(const PreparedPart& p,
-                                           const std::vector<SetupWork>& setups) {
-  std::vector<std::string> all;
+std::vector<Reason> undercuts_not_cut(const PreparedPart& p,
+                                      const std::vector<SetupWork>& setups) {
+  std::vector<Reason> all;
   for (std::size_t i = 0; i < p.drawing.outer.size(); ++i)
     for (const End end : {End::left, End::right}) {
       const auto& e = p.drawing.outer[i];
@@ -154,10 +156,12 @@ std::vector<std::string> undercuts_not_cut(const PreparedPart& p,
       for (std::size_t s = 0; s < setups.size(); ++s)
         cut = cut || (makes(setups[s], {false, i}) && free_end(p, s) != end);
       if (!cut)
-        all.push_back(
-            say("the undercut of {} before {} cannot be cut: no setup turns {} "
-                "towards that shoulder",
-                e.id, shoulder_id(p.drawing, end == End::left ? i : i + 1), e.id));
+        all.emplace_back([&p, &e, end, i] {
+          return say(
+              "the undercut of {} before {} cannot be cut: no setup turns {} towards "
+              "that shoulder",
+              e.id, shoulder_id(p.drawing, end == End::left ? i : i + 1), e.id);
+        });
     }
   return all;
 }

@@ -1,30 +1,30 @@
 #pragma once
-#include <string>
 #include <vector>
 
+#include "reach.hpp"
 #include "turnwright/planning/prepared_part.hpp"
 
 /// Which setup cuts which chamfers and undercuts of the drawing.
 namespace turnwright::planning {
 
 /// Gives the chamfers that no tool cuts on its way to a setup with a pass of their own;
-/// returns a sentence for each that no setup can cut.  A tool cuts a chamfer on its way in
+/// returns a reason for each that no setup can cut.  A tool cuts a chamfer on its way in
 ///  - the setup that makes the element: every pass begins along the chamfer;
 ///  - one that makes the lower element in front, and so the wall between them: the last
 ///    pass, or the facing tool, goes along the chamfer; into stock, if the element is made
 ///    later.
 /// At an end of the part that is faced and free after the element has been made a pass of
 /// its own does it.
-std::vector<std::string> assign_chamfers(const PreparedPart& plan,
-                                         std::vector<SetupWork>& setups);
+std::vector<Reason> assign_chamfers(const PreparedPart& plan,
+                                    std::vector<SetupWork>& setups);
 
 /// Takes the chamfers out of the drawing that the title block asks for of all edges alike and
 /// that no setup cuts on its way.
 void leave_to_the_hand(PreparedPart& part);
 
-/// A sentence for each undercut that no setup cuts: the one that makes its element comes
+/// A reason for each undercut that no setup cuts: the one that makes its element comes
 /// from the shoulder's side, or faces that shoulder by itself.
-std::vector<std::string> undercuts_not_cut(const PreparedPart& plan,
-                                           const std::vector<SetupWork>& setups);
+std::vector<Reason> undercuts_not_cut(const PreparedPart& plan,
+                                      const std::vector<SetupWork>& setups);
 
 }  // namespace turnwright::planning

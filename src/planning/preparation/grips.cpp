@@ -76,7 +76,7 @@ double level_to_mm(const PreparedPart& p, std::size_t s) {
 }
 
 // A grip that leaves an overhang of three diameters, where the setup cuts no more of it.
-void lengthen(PreparedPart& p, std::size_t s) {
+void lengthen(PreparedPart& p, const Ways& ways, std::size_t s) {
   const double overhang = std::abs(free_z_mm(p, s) - root_z_mm(p, s, Clamping::chuck));
   const double beyond =
       overhang - kOverhang_diameters * part::held_mm(p.drawing, s, p.setups[s].hold);
@@ -85,20 +85,19 @@ void lengthen(PreparedPart& p, std::size_t s) {
   const double before = p.grips_mm[s];
   p.grips_mm[s] =
       std::min(*longest, std::ceil((before + beyond) / kDigit_mm - 1e-6) * kDigit_mm);
-  if (assign(p) != p.work) p.grips_mm[s] = before;
+  if (assign(p, ways) != p.work) p.grips_mm[s] = before;
 }
 
 // One grip shorter, in the first setup that leaves it open and where that helps; false if
 // it helps in none.
-bool shortened(PreparedPart& p) {
+bool shortened(PreparedPart& p, const Ways& ways) {
   for (std::size_t s = 0; s < p.setups.size(); ++s) {
     if (p.setups[s].grip_mm) continue;
     const double before = p.grips_mm[s];
     for (const double grip : shorter_grips_mm(p, s)) {
       p.grips_mm[s] = grip;
-      auto work = assign(p);
-      if (work.unreachable.size() < p.work.unreachable.size()) {
-        p.work = std::move(work);
+      if (left_out(p, ways) < p.work.unreachable.size()) {
+        p.work = assign(p, ways);
         return true;
       }
       p.grips_mm[s] = before;
@@ -112,9 +111,10 @@ bool shortened(PreparedPart& p) {
 std::vector<double> shorter_grips_mm(const PreparedPart& p, std::size_t s) {
   const bool left = p.setups[s].hold == part::End::left;
   const double end = root_z_mm(p, s, Clamping::chuck);
+  const auto left_ends = part::left_ends_mm(p.drawing);
   std::vector<double> all;
   for (std::size_t i = 0; i < p.drawing.outer.size(); ++i) {
-    const double z0 = part::left_z_mm(p.drawing, i);
+    const double z0 = left_ends[i];
     const double z = left ? z0 : z0 + p.drawing.outer[i].length_mm;  // nearer the jaws
     const double shorter = (left ? end - z : z - end) + kRunOut_mm;
     const double grip =
@@ -132,8 +132,9 @@ std::optional<double> longer_grip_mm(const PreparedPart& p, std::size_t s) {
   double room = (level_to_mm(p, s) - root) * (free > root ? 1 : -1);
   double corner = 0;
   for (const auto& t : p.tools) corner = std::max(corner, t.re_mm);
+  const auto left_ends = part::left_ends_mm(p.drawing);
   for (const std::size_t i : work.elements) {
-    const double z0 = part::left_z_mm(p.drawing, i);
+    const double z0 = left_ends[i];
     const double z1 = z0 + p.drawing.outer[i].length_mm;
     room = std::min(room, (free > root ? z0 - root : root - z1) - corner);
   }
@@ -151,11 +152,12 @@ std::optional<double> longer_grip_mm(const PreparedPart& p, std::size_t s) {
 void choose_grips(PreparedPart& p) {
   for (std::size_t s = 0; s < p.setups.size(); ++s)
     p.grips_mm.push_back(p.setups[s].grip_mm.value_or(usual_mm(p, s)));
-  p.work = assign(p);
-  while (!p.work.unreachable.empty() && shortened(p)) {
+  const Ways ways(p);
+  p.work = assign(p, ways);
+  while (!p.work.unreachable.empty() && shortened(p, ways)) {
   }
   for (std::size_t s = 0; s < p.setups.size(); ++s)
-    if (!p.setups[s].grip_mm) lengthen(p, s);
+    if (!p.setups[s].grip_mm) lengthen(p, ways, s);
 }
 
 }  // namespace turnwright::planning

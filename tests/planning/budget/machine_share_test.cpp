@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <stop_token>
 
 #include "../parts.hpp"
 #include "planning/budget/tolerance_allocation.hpp"
+#include "turnwright/base/cancelled.hpp"
 #include "turnwright/planning/plan.hpp"
 #include "turnwright/planning/process_plan.hpp"
 
@@ -376,6 +378,19 @@ TEST(MachineShare, TooLargeForAToleranceIsTheFirstConflict) {
   EXPECT_NE(result.conflicts[0].sentence.find("used up (machine 10 um"),
             std::string::npos)
       << result.conflicts[0].sentence;
+}
+
+TEST(MachineShare, ACancelledComputationIsLeft) {
+  auto d = tube();
+  d["tolerances"] = {zone("cylindricity", "d2")};
+  d["machine"] = lathe({{"Z", square("EB0Z", 1e-4)}});
+  const auto p = part(d);
+  std::stop_source stop;
+  const auto token = stop.get_token();
+  const Listening listening(token);
+  EXPECT_NO_THROW(machine_takes(p));
+  stop.request_stop();
+  EXPECT_THROW(machine_takes(p), Cancelled);
 }
 
 }  // namespace
