@@ -163,8 +163,8 @@ class Equations {
     size_ = samba_size(strategy, names);
     if (!size_.solvable())
       throw ModelRangeError(
-          say("samba: {} equations of {} unknowns, at most {:.0e} equations times "
-              "unknowns squared are solved",
+          say("samba: {} equations of {} unknowns, at most {:.0e} equations times the "
+              "square of the unknowns are solved",
               size_.equations, size_.unknowns, kMostSambaWork));
   }
 

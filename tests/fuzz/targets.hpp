@@ -16,7 +16,7 @@ Target http_target();
 /// Readers of text: program and program-lathe, that of `compensate`; csv-NAME, the table
 /// of a door; review-CONTROL, a program of `review`; drawing-step, -dxf and -notation, a
 /// drawing of `import`; frf-csv, -uff and -taps, a response of `stability`; comp-file, that of
-/// `positioning`; batch, a line of a batch; json, any text.  Readers of bytes, as the command
+/// `positioning`; qif, a file of results of `learn`; batch, a line of a batch; json, any text.  Readers of bytes, as the command
 /// line takes files: library, that of `import-tools`; drawing-file, that of `import`;
 /// frf-file, a response in any of its forms; sound, that of `listen`.  Empty for other names.
 Target text_target(const std::string& name);

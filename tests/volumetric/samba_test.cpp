@@ -323,8 +323,8 @@ TEST(Samba, RefusesWhatWouldTakeMinutes) {
     return "";
   };
   EXPECT_EQ(message(19),
-            "samba: 38701 equations of 322 unknowns, at most 4e+09 equations times "
-            "unknowns squared are solved");
+            "samba: 38701 equations of 322 unknowns, at most 4e+09 equations times the "
+            "square of the unknowns are solved");
   EXPECT_EQ(message(18), "");
 }
 

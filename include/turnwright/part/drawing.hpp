@@ -268,7 +268,7 @@ inline constexpr double kRunOut_mm = 5;
 double inner_left_z_mm(const Drawing& drawing, std::size_t i);
 /// Left ends z [mm] of all outer elements at once, each equal to its `left_z_mm`.
 std::vector<double> left_ends_mm(const Drawing& drawing);
-/// And of all inner elements, each equal to its `inner_left_z_mm`.
+/// Left ends z [mm] of all inner elements at once, each equal to its `inner_left_z_mm`.
 std::vector<double> inner_left_ends_mm(const Drawing& drawing);
 /// Largest diameter [mm] of the stock's hole and the inner elements between two positions.
 double largest_hole_mm(const Drawing& drawing, double z0_mm, double z1_mm);

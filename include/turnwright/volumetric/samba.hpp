@@ -48,11 +48,11 @@ bool is_samba_parameter(const std::string& name);
 /// How large the equations (1) to (3) below are.
 struct SambaSize {
   std::size_t equations = 0, unknowns = 0;
-  /// Whether equations times unknowns squared are at most kMostSambaWork.
+  /// Whether equations times the square of the unknowns are at most kMostSambaWork.
   bool solvable() const;
 };
 
-/// Of one solution, which takes some three times as many operations: about two seconds.
+/// The largest work of one solution, some three times as many operations: two seconds.
 inline constexpr double kMostSambaWork = 4e9;
 
 SambaSize samba_size(const SambaStrategy& strategy,
@@ -92,7 +92,7 @@ struct Identifiability {
 /// Source: [Mayer 2012], the method as [Mohammed 2019] describes it; equations derived
 /// here.
 /// @throws std::domain_error for unknown or repeated names, or a missing ball or stylus;
-///   ModelRangeError where equations times unknowns squared exceed kMostSambaWork;
+///   ModelRangeError where these are not solvable();
 ///   Cancelled; here and below.
 Identifiability identifiability(const SambaStrategy& strategy,
                                 const std::vector<std::string>& parameters);

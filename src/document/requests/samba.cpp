@@ -173,10 +173,10 @@ void read_readings(Reader& r, CalibrationRequest& q) {
 void check_size(Reader& r, const CalibrationRequest& q) {
   const SambaSize size = samba_size(q.strategy, q.parameters);
   if (!size.solvable())
-    r.problem_at("strategy",
-                 say("at most {:.0e} equations times unknowns squared; here are {} "
-                     "equations of {} unknowns",
-                     kMostSambaWork, size.equations, size.unknowns),
+    r.at("strategy")
+        .problem(say("{} equations of {} unknowns", size.equations, size.unknowns),
+                 say("at most {:.0e} equations times the square of the unknowns",
+                     kMostSambaWork),
                  "range");
 }
 

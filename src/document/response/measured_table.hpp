@@ -36,8 +36,8 @@ struct TableForm {
 /// one of them in the whole table.  What stands in brackets at a header's end, or has a
 /// slash, is its unit, known or not, but not the name of a channel, "(H1)".  A first row
 /// without numbers, all of whose cells are units, holds the units of the columns.
-/// Reported: what csv_cells reports; no rows but that of units; a name of `names` that no column has; two columns of
-/// one quantity; cells that are no numbers, by line and column.
+/// Reported: what csv_cells reports; no rows but that of units; a name of `names` that no
+/// column has; two columns of one quantity; cells that are no numbers, by line and column.
 MeasuredTable read_measured_table(const Reader& csv, std::optional<Reader> names,
                                   const TableForm& form);
 

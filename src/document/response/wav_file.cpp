@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -13,7 +14,7 @@ namespace turnwright::document {
 namespace {
 
 constexpr std::size_t kChunkHeader = 8, kFormat = 16, kExtended = 40;
-constexpr std::size_t kUnknownLength = 0xffffffff;  // of data written to a pipe
+constexpr std::size_t kUnknownLength = 0x7ffff000;  // and more, of data in a pipe
 constexpr std::uint32_t kPcm = 1, kFloat = 3, kExtensible = 0xfffe;
 
 /// A whole number of a file, least byte first.
@@ -38,7 +39,8 @@ class WavReader {
       const std::size_t body = at + kChunkHeader, rest = bytes_.size() - body;
       const auto name = bytes_.substr(at, 4);
       std::size_t length = word_at(bytes_, at + 4, 4);
-      if (name == "data" && length == kUnknownLength) length = rest - rest % frame();
+      if (name == "data" && length > rest && length >= kUnknownLength)
+        length = rest - rest % frame();
       if (length > rest)
         return wrong(at, say("a chunk of {} bytes, {} of them in the file", length, rest),
                      tr("a file that is not cut off"));
@@ -106,8 +108,9 @@ class WavReader {
       for (std::size_t c = 0; c < out_.channels.size(); ++c) {
         const std::size_t byte = at + i * frame() + c * width_;
         const double x = sample(byte);
-        if (!std::isfinite(x))
-          return wrong(byte, tr("a sample that is no number"), "numbers");
+        if (!(std::abs(x) <= std::numeric_limits<float>::max()))
+          return wrong(byte, tr("a sample that is no number, or beyond single precision"),
+                       "numbers");
         out_.channels[c].push_back(x);
       }
     return std::move(out_);

@@ -70,7 +70,7 @@ class Drawing {
  private:
   const Frame& frame() const { return frames_.back(); }
 
-  // Counts bytes of the file that may be read, or kept, more than once.
+  // Counts bytes that a short file can have read, or kept, again and again.
   void repeat(std::size_t bytes) {
     repeated_ += bytes;
     if (repeated_ > kMostRepeated)
@@ -89,11 +89,17 @@ class Drawing {
       if (g->code == 6) linetype_name = g->value;
     }
     std::string layer = capital(layer_name), linetype = capital(linetype_name);
-    if (layer == "0") repeat((layer = frame().layer).size());
+    if (layer == "0") {
+      layer = frame().layer;
+      repeat(layer.size());
+    }
     const auto known = file_.layers.find(layer);
     if (known != file_.layers.end() && !known->second.visible)
       return leave(say("entity of the hidden layer {}", layer));
-    if (linetype == "BYBLOCK") repeat((linetype = frame().linetype).size());
+    if (linetype == "BYBLOCK") {
+      linetype = frame().linetype;
+      repeat(linetype.size());
+    }
     if (linetype == "BYLAYER" || linetype.empty()) {
       linetype = known == file_.layers.end() ? "" : capital(known->second.linetype);
       repeat(linetype.size());

@@ -196,7 +196,8 @@ Placed placed(const PreparedPart& p, const Reach& reach) {
   assign_end_faces(p, reach, a);
   assign_shoulders(p, reach, a);
   assign_centres(p, a);
-  for (auto&& not_cut : {assign_chamfers(p, a.setups), undercuts_not_cut(p, a.setups)})
+  for (const auto& not_cut :
+       {assign_chamfers(p, a.setups), undercuts_not_cut(p, a.setups)})
     a.unreachable.insert(a.unreachable.end(), not_cut.begin(), not_cut.end());
   return a;
 }

@@ -13,7 +13,8 @@
 /// Which surfaces a setup's tools can get to.
 namespace turnwright::planning {
 
-/// A sentence that is made when somebody wants to read it.
+/// A sentence that is made only where it is told.  It refers to the part and its ways,
+/// which must outlive it.
 using Reason = std::function<std::string()>;
 
 /// Length [mm] that the corner of a finishing tool needs beyond the end of an element, and

@@ -130,9 +130,10 @@ TEST(SambaDoor, RefusesWhatWouldTakeMinutes) {
   s["balls_seen"] = json(9, seen);
   s["pre_moves"] = json::object();
   s["styli_mm"] = tips;
-  EXPECT_EQ(refused(request),
-            "samba: /strategy: got an object, expected at most 4e+09 equations times "
-            "unknowns squared; here are 27001 equations of 405 unknowns");
+  EXPECT_EQ(
+      refused(request),
+      "samba: /strategy: got 27001 equations of 405 unknowns, expected at most 4e+09 "
+      "equations times the square of the unknowns");
 }
 
 TEST(SambaDoor, SchemaAndReaderAgreeOnEverySlip) {

@@ -80,8 +80,10 @@ TEST(WavFile, FloatingPointAndTwoChannels) {
   const auto twice = [](double x) { return little(std::bit_cast<std::uint64_t>(x), 8); };
   EXPECT_EQ(read(wav(3, 1, 64, twice(0.1) + twice(-3))).channels[0],
             (std::vector{0.1, -3.0}));
+  EXPECT_EQ(fault(wav(3, 1, 64, twice(1e300))),
+            "byte 44: a sample that is no number, or beyond single precision | numbers");
   EXPECT_EQ(fault(wav(3, 1, 32, bits(std::numeric_limits<float>::infinity()))),
-            "byte 44: a sample that is no number | numbers");
+            "byte 44: a sample that is no number, or beyond single precision | numbers");
 }
 
 TEST(WavFile, OtherChunksArePassedOverAndExtensibleIsRead) {
@@ -95,8 +97,10 @@ TEST(WavFile, OtherChunksArePassedOverAndExtensibleIsRead) {
 TEST(WavFile, DataOfUnknownLengthEndWithTheFile) {
   std::string piped = wav(1, 2, 16, little(0x4000c000, 4) + "cut");
   piped.resize(piped.size() - 1);  // the byte that makes the chunk even
-  piped.replace(40, 4, "\xff\xff\xff\xff");
-  EXPECT_EQ(read(piped).channels, (std::vector<std::vector<double>>{{-0.5}, {0.5}}));
+  for (const std::uint64_t stated : {0xffffffffU, 0x80000000U, 0x7ffff000U}) {
+    piped.replace(40, 4, little(stated, 4));
+    EXPECT_EQ(read(piped).channels, (std::vector<std::vector<double>>{{-0.5}, {0.5}}));
+  }
 }
 
 TEST(WavFile, MalformedFilesAreToldWithTheirByte) {
