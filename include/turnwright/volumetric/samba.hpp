@@ -92,8 +92,7 @@ struct Identifiability {
 /// Source: [Mayer 2012], the method as [Mohammed 2019] describes it; equations derived
 /// here.
 /// @throws std::domain_error for unknown or repeated names, or a missing ball or stylus;
-///   ModelRangeError where these are not solvable();
-///   Cancelled; here and below.
+///   ModelRangeError where the equations are not solvable(); Cancelled; here and below.
 Identifiability identifiability(const SambaStrategy& strategy,
                                 const std::vector<std::string>& parameters);
 

@@ -16,10 +16,10 @@ constexpr double kSame = 1e-11;  // rad: rounding of angles
 
 double sinc(double x) { return std::abs(x) < 1e-4 ? 1 - x * x / 6 : std::sin(x) / x; }
 
-void sort_unique(std::vector<double>& angles) {
-  std::ranges::sort(angles);
-  const auto same = [](double a, double b) { return b - a < kSame; };
-  angles.erase(std::unique(angles.begin(), angles.end(), same), angles.end());
+void sort_unique(std::vector<double>& values, double apart = kSame) {
+  std::ranges::sort(values);
+  const auto same = [apart](double a, double b) { return b - a < apart; };
+  values.erase(std::unique(values.begin(), values.end(), same), values.end());
 }
 
 /// Integrals over the height of a part of an edge: 1, cos phi, sin phi and their squares.
@@ -224,9 +224,7 @@ std::vector<double> kinks_mm(const Cutter& cutter, double n_rpm, double ap_max_m
   constexpr std::size_t kKept = 4096;
   std::vector<double> out;
   const auto too_many = [&] {
-    std::ranges::sort(out);
-    const auto same = [&](double a, double b) { return b - a < 1e-9 * ap_max_mm; };
-    out.erase(std::unique(out.begin(), out.end(), same), out.end());
+    sort_unique(out, 1e-9 * ap_max_mm);
     return out.size() > kMost;
   };
   const double lag = lag_rad_mm(cutter);

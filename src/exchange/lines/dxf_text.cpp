@@ -138,16 +138,12 @@ std::string in_utf8(std::string_view s) {
 
 std::string shown_text(std::string_view text) {
   const std::string read = in_utf8(TextReader(text).read());
-  const std::string_view rest = read;
   std::string out;
-  for (std::size_t i = 0; i < rest.size();) {
-    const auto sign = rest.substr(i, std::string_view("∅").size());
-    const bool diameter = sign == "∅" || sign == "⌀";
-    if (diameter)
-      out += "Ø";
-    else
-      out += rest[i];
-    i += diameter ? sign.size() : 1;
+  for (std::string_view rest = read; !rest.empty();) {
+    const bool diameter = rest.starts_with("∅") || rest.starts_with("⌀");
+    const std::size_t taken = diameter ? std::string_view("∅").size() : 1;
+    out += diameter ? "Ø" : rest.substr(0, taken);
+    rest.remove_prefix(taken);
   }
   return out;
 }
