@@ -1,5 +1,6 @@
 #include "openapi.hpp"
 
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -12,8 +13,10 @@ namespace {
 
 using nlohmann::ordered_json;
 
+const std::string kSchemas = "#/components/schemas/";
+
 ordered_json reference(const std::string& schema) {
-  return {{"$ref", "#/components/schemas/" + schema}};
+  return {{"$ref", kSchemas + schema}};
 }
 
 /// Component names may not hold every character a file name may.
@@ -23,14 +26,19 @@ std::string component(std::string file) {
 }
 
 // OpenAPI keeps schemas side by side in one document: "#/definitions/x" of a file becomes
-// a component of its own, file.x, and so does "file.json#/definitions/x" of another.
+// a component of its own, file.x.  `to` stands in the schema `name`, or names another file.
+std::string moved(const std::string& to, const std::string& name) {
+  static constexpr std::string_view kDefinitions = "/definitions/";
+  const auto mark = to.find('#');
+  const auto file = to.substr(0, mark);
+  std::string place = mark == std::string::npos ? "" : to.substr(mark + 1);
+  if (place.starts_with(kDefinitions)) place.replace(0, kDefinitions.size(), ".");
+  return kSchemas + (file.empty() ? name : component(file)) + place;
+}
+
 void move_references(ordered_json& schema, const std::string& name) {
-  if (schema.is_object() && schema.contains("$ref") && schema["$ref"].is_string()) {
-    const std::string to = schema["$ref"];
-    const auto file = to.substr(0, to.find('#'));
-    schema["$ref"] = "#/components/schemas/" + (file.empty() ? name : component(file)) +
-                     '.' + to.substr(to.rfind('/') + 1);
-  }
+  if (schema.is_object() && schema.contains("$ref") && schema["$ref"].is_string())
+    schema["$ref"] = moved(schema["$ref"], name);
   if (schema.is_structured())  // a range over a number is the number itself
     for (auto& member : schema) move_references(member, name);
 }
@@ -80,6 +88,19 @@ void add_schema(ordered_json& schemas, const std::filesystem::path& folder,
   schema.erase("definitions");
   schema.erase("$schema");
   schemas[name] = std::move(schema);
+}
+
+// Generators of clients know references to components, not to a member within one: that
+// member is copied to where it is referred to.
+void copy_members(ordered_json& schema, const ordered_json& schemas) {
+  if (schema.is_object() && schema.contains("$ref") && schema["$ref"].is_string()) {
+    const std::string place =
+        schema["$ref"].get<std::string>().substr(kSchemas.size() - 1);
+    if (place.find('/', 1) == std::string::npos) return;
+    schema = schemas.at(ordered_json::json_pointer(place));
+  }
+  if (schema.is_structured())
+    for (auto& member : schema) copy_members(member, schemas);
 }
 
 ordered_json json_content(ordered_json schema) {
@@ -292,6 +313,7 @@ ordered_json openapi(const std::filesystem::path& folder) {
   for (const char* open : {"/", "/healthz", "/readyz"})
     paths[open]["get"]["security"] = {ordered_json::object()};
   add_own_schemas(schemas);
+  copy_members(schemas, ordered_json(schemas));
   return {{"openapi", "3.1.0"},
           {"info",
            {{"title", "Turnwright"},

@@ -335,5 +335,33 @@ TEST(HttpApi, SchemasAreTheDescriptionsDialect) {
   EXPECT_NE(schemas.dump().find("\"prefixItems\""), std::string::npos);
 }
 
+// Adds what the references inside name.
+void add_references(const json& inside, std::set<std::string>& all) {
+  if (!inside.is_structured()) return;
+  if (inside.contains("$ref") && inside["$ref"].is_string()) all.insert(inside["$ref"]);
+  for (const auto& member : inside) add_references(member, all);
+}
+
+// Generators of clients know no others.
+TEST(HttpApi, EveryReferenceOfTheDescriptionLeadsToAComponent) {
+  const auto document = json::parse(reply(call("GET", "/openapi.json")).body);
+  std::set<std::string> references, components;
+  add_references(document, references);
+  for (const auto& [name, schema] : document.at("components").at("schemas").items())
+    components.insert("#/components/schemas/" + name);
+  EXPECT_GT(references.size(), 100u);
+  for (const auto& to : references) EXPECT_TRUE(components.contains(to)) << to;
+}
+
+TEST(HttpApi, AReferenceMeansWhatItMeansInTheFiles) {
+  const auto document = json::parse(reply(call("GET", "/openapi.json")).body);
+  const auto& schemas = document.at("components").at("schemas");
+  EXPECT_EQ(schemas.at("listen.request").at("properties").at("stability").at("$ref"),
+            "#/components/schemas/stability.request");
+  const json& Kn = schemas.at("overhang.request.milling").at("properties").at("Kn_MPa");
+  EXPECT_EQ(Kn.at("type"), "number");
+  EXPECT_EQ(Kn, schemas.at("stability.request.milling").at("properties").at("Kn_MPa"));
+}
+
 }  // namespace
 }  // namespace turnwright::service::api_test
