@@ -94,6 +94,10 @@ set_source_files_properties(src/service/answer.cpp PROPERTIES COMPILE_DEFINITION
 tw_domain(service DEPENDS base catalogue planning document report gcode nc review
   PRIVATE_LIBS OpenSSL::Crypto fmt::fmt spdlog::spdlog ZLIB::ZLIB SQLiteCpp SQLite::SQLite3
     prometheus-cpp::core Boost::headers Threads::Threads TBB::tbb)
+if(BUILD_TESTING)
+  target_sources(service_test PRIVATE tests/document/schema_check.cpp)
+  target_compile_definitions(service_test PRIVATE VALIJSON_USE_EXCEPTIONS=1)
+endif()
 # clang 14 has coroutines but does not say so, and cannot sanitize them.
 if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 15)
   target_compile_definitions(turnwright_service PUBLIC __cpp_impl_coroutine=201902L

@@ -3,6 +3,7 @@
 #include <limits>
 #include <set>
 
+#include "../document/schema_check.hpp"
 #include "document/json/parse.hpp"
 #include "service/requests.hpp"
 #include "turnwright/base/errors.hpp"
@@ -68,7 +69,7 @@ TEST(Answer, OnlyAnInfeasibleStatusIsInfeasible) {
   EXPECT_FALSE(infeasible(json::object()));
 }
 
-TEST(Requests, EveryRowIsNamedOnceAndItsExampleIsAnswered) {
+TEST(Requests, EveryRowIsNamedOnceAndItsExampleIsAnsweredAsItsSchemaSays) {
   const auto catalogue = document::load_catalogue(TURNWRIGHT_SOURCE_DIR);
   std::set<std::string> names;
   for (const auto& row : requests()) {
@@ -78,6 +79,7 @@ TEST(Requests, EveryRowIsNamedOnceAndItsExampleIsAnswered) {
     const auto result = answer(row, document::parse(row.example, row.name), {catalogue});
     EXPECT_TRUE(result.contains("format"));
     EXPECT_FALSE(infeasible(result));
+    EXPECT_EQ(document::SchemaCheck(result_schema(row)).fault(result), "");
   }
 }
 
