@@ -155,8 +155,9 @@ void run_batch(BatchInput& input, const BatchFolder& folder, const Shard& shard,
         answer(item, catalogue, known);
         return item;
       });
+  // Items are taken by value: TBB does not free those in which a filter throws.
   const auto write = tbb::make_filter<Item, void>(tbb::filter_mode::serial_in_order,
-                                                  [&](const Item& item) {
+                                                  [&](const Item item) {
                                                     records.add(item);
                                                     progress.found = item.found;
                                                     ++progress.done;
