@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/say.hpp"
 #include "centre_clearance.hpp"
 #include "contour.hpp"
 #include "fixed.hpp"
@@ -422,7 +423,12 @@ Programs programs(const planning::PreparedPart& part, const planning::ProcessPla
   for (std::size_t s = 0; s < plan.setups.size(); ++s) {
     Site site(part, plan, s);
     if (site.answer().operations.empty()) continue;
-    all.setups.push_back(program(site, numbers));
+    try {
+      all.setups.push_back(program(site, numbers));
+    } catch (const TooManyMoves&) {
+      site.cannot.push_back(say("{}: its program would have more than {} moves",
+                                planning::setup_label(s), kMostMoves));
+    }
     all.cannot.insert(all.cannot.end(), site.cannot.begin(), site.cannot.end());
   }
   if (!all.cannot.empty()) all.setups.clear();

@@ -6,6 +6,7 @@
 
 #include "planning/paths/edges.hpp"
 #include "planning/paths/programmed_faces.hpp"
+#include "turnwright/base/cancelled.hpp"
 
 namespace turnwright::nc {
 
@@ -106,9 +107,15 @@ Site::Site(const planning::PreparedPart& part_, const planning::ProcessPlan& pla
   at = {outer.stock_h + kChange_mm, front + kChange_mm};
 }
 
+void Site::add(const Move& move) {
+  leave_if_asked();
+  if (++moved_ > kMostMoves) throw TooManyMoves();
+  moves.push_back(move);
+}
+
 void Site::rapid(double x, double z_) {
   if (x == at.h_mm && z_ == at.z_mm) return;
-  moves.push_back({Move::Kind::rapid, x, z_, {}, false});
+  add({Move::Kind::rapid, x, z_, {}, false});
   at = {x, z_};
 }
 
@@ -117,18 +124,18 @@ void Site::refuse(const std::string& operation, const std::string& why) {
 }
 
 void Site::to(Move::Kind kind, const Side& side, const Point& p) {
-  moves.push_back({kind, side.sign * p.h_mm, p.z_mm, {}, false});
+  add({kind, side.sign * p.h_mm, p.z_mm, {}, false});
   at = {side.sign * p.h_mm, p.z_mm};
 }
 
 void Site::arc(const Side& side, const Point& end, const Point& centre, bool convex,
                bool inwards) {
   const bool clockwise = (convex != inwards) == (side.sign > 0);
-  moves.push_back({Move::Kind::arc,
-                   side.sign * end.h_mm,
-                   end.z_mm,
-                   {side.sign * centre.h_mm, centre.z_mm},
-                   clockwise});
+  add({Move::Kind::arc,
+       side.sign * end.h_mm,
+       end.z_mm,
+       {side.sign * centre.h_mm, centre.z_mm},
+       clockwise});
   at = {side.sign * end.h_mm, end.z_mm};
 }
 

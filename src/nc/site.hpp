@@ -57,6 +57,11 @@ struct Side {
   double highest(double from_z, double to_z) const;
 };
 
+inline constexpr std::size_t kMostMoves = 200'000;  ///< of a setup's program
+
+/// Thrown where a setup's program would have more than kMostMoves moves.
+struct TooManyMoves {};
+
 class Site {
  public:
   Site(const planning::PreparedPart& part, const planning::ProcessPlan& plan,
@@ -108,6 +113,11 @@ class Site {
   double above(const Side& side) const {
     return side.sign > 0 ? kAbove_mm : kAboveBore_mm;
   }
+
+ private:
+  void add(const Move& move);
+
+  std::size_t moved_ = 0;  // moves of all operations so far
 };
 
 /// The element with an id in its present state.

@@ -255,24 +255,28 @@ struct Planned {
   planning::ProcessPlan plan;
 };
 
-std::vector<planning::Candidate> to_plan(const document::Candidates& all) {
+// Moved out of the documents, of which a request may leave hundreds open.
+std::vector<planning::Candidate> to_plan(document::Candidates& all) {
   std::vector<planning::Candidate> candidates;
-  for (const auto& [name, document, without, unless_within] : all.usable)
-    candidates.push_back({name, document.part, document.what_if, without, unless_within});
+  for (auto& [name, document, without, unless_within] : all.usable)
+    candidates.push_back({name, std::move(document.part), std::move(document.what_if),
+                          std::move(without), unless_within});
   return candidates;
 }
 
 // The best of what the request leaves open.
 Planned planned(document::Candidates&& all,
                 const planning::Judge& judge = nc::refuse_unprogrammed) {
-  const auto candidates = to_plan(all);
+  auto candidates = to_plan(all);
   auto choice = planning::choose(candidates, judge);
+  auto& chosen = all.usable[choice.chosen].document;
+  chosen.part = std::move(candidates[choice.chosen].part);
   for (const auto& [name, why] : all.refused)
     choice.plan.alternatives.push_back(
         {.name = name,
          .why = why,
          .sentence = say("{}: cannot be planned: {}", name, why)});
-  return {std::move(all.usable[choice.chosen].document), std::move(choice.plan)};
+  return {std::move(chosen), std::move(choice.plan)};
 }
 
 ordered_json plan(const json& request, const Context& context) {
@@ -288,11 +292,14 @@ ordered_json predict(const json& request, const Context& context) {
 }
 
 ordered_json quote(const json& request, const Context& context) {
-  const auto quoted = document::load_quote(request, context.catalogue);
+  auto quoted = document::load_quote(request, context.catalogue);
   std::vector<planning::Candidate> all;
-  for (const auto& part : quoted.parts)
+  for (auto& part : quoted.parts)
     std::ranges::move(to_plan(part), std::back_inserter(all));
   auto made = planning::judged_plans(all, nc::refuse_unprogrammed);
+  auto done = all.begin();
+  for (auto& part : quoted.parts)
+    for (auto& way : part.usable) way.document.part = std::move((done++)->part);
   std::vector<std::vector<planning::ProcessPlan>> plans;
   auto next = std::make_move_iterator(made.begin());
   for (const auto& part : quoted.parts) {

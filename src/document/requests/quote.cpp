@@ -70,7 +70,8 @@ void read_part(const Reader& item, const Catalogue& catalogue, bool priced,
         q.parts.push_back(prepared_candidates(item.json(), catalogue, "quote"));
       }))
     return;
-  const auto& usable = q.parts.back().usable;
+  auto& usable = q.parts.back().usable;
+  for (auto& c : usable) c.document.what_if.clear();  // a quote does not answer these
   if (usable.front().document.part.objective != planning::Objective::cost)
     item.problem_at("objective", tr("\"cost\": a quote is of the cheapest plan"),
                     "conflict");

@@ -12,6 +12,7 @@
 #include "milled_operations.hpp"
 #include "planning/clamping/positions.hpp"
 #include "planning/paths/edges.hpp"
+#include "planning/values/most_passes.hpp"
 #include "planning/values/readable.hpp"
 #include "turnwright/base/dual.hpp"
 #include "turnwright/base/units.hpp"
@@ -96,21 +97,25 @@ Asked asked(const Site& s, const CutElement& e, FixedUse use, const char* does,
           }};
 }
 
+// Counted to one more than there may be.
 int times(double whole, double part) {
-  return std::max(1, static_cast<int>(std::ceil(whole / part - 1e-9)));
+  return static_cast<int>(
+      std::clamp(std::ceil(whole / part - 1e-9), 1.0, kMostPasses + 1.0));
 }
 
 // The given number of passes, or the one that follows from a given depth; nothing if the
-// two contradict.
+// two contradict, or if there are too many.
 std::optional<int> passes_of(const Site& s, const Asked& a, int otherwise,
                              const std::function<int(double)>& at_depth) {
-  if (!a.given) return otherwise;
-  const auto& c = a.given->conditions;
-  if (!c.ap_mm) return c.passes.value_or(otherwise);
-  const int least = at_depth(*c.ap_mm);
-  const int n = c.passes.value_or(least);
-  if (n >= least) return n;
-  refuse(s, a, say("{} passes of {:g} mm are too few", n, *c.ap_mm));
+  const auto c = a.given ? a.given->conditions : Conditions{};
+  const int least = c.ap_mm ? at_depth(*c.ap_mm) : 1;
+  const int n = c.passes.value_or(c.ap_mm ? least : otherwise);
+  if (n < least)
+    refuse(s, a, say("{} passes of {:g} mm are too few", n, *c.ap_mm));
+  else if (n > kMostPasses)
+    refuse(s, a, say("it would take more than {} passes", kMostPasses));
+  else
+    return n;
   return std::nullopt;
 }
 

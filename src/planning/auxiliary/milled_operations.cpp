@@ -10,6 +10,7 @@
 #include "cross_holes.hpp"
 #include "milled_choice.hpp"
 #include "milled_ways.hpp"
+#include "planning/values/most_passes.hpp"
 #include "turnwright/base/units.hpp"
 
 namespace turnwright::planning {
@@ -21,9 +22,10 @@ constexpr double kRounding = 1e-9;
 
 std::pair<int, int> pass_counts(const Milled& m, const catalogue::MillingCutter& c) {
   if (m.passes) return {*m.passes, *m.passes};
-  const int fewest =
-      std::max(1, static_cast<int>(std::ceil(m.depth_mm / c.ap_mm.upper - kSlack_mm)));
-  const double most = std::floor(m.depth_mm / c.ap_mm.lower + kSlack_mm);
+  const int fewest = static_cast<int>(std::clamp(
+      std::ceil(m.depth_mm / c.ap_mm.upper - kSlack_mm), 1.0, kMostPasses + 1.0));
+  const double most =
+      std::min(std::floor(m.depth_mm / c.ap_mm.lower + kSlack_mm), 1.0 * kMostPasses);
   return {fewest,
           std::max(fewest, static_cast<int>(std::min(most, fewest + kPassCounts)))};
 }
@@ -203,6 +205,8 @@ void take(const MilledSite& s, const MilledChoice& c, AuxiliaryWork& out) {
 // The reason why a cutter that fits cannot be used here; empty if it can.
 std::string stopped(const MilledSite& s, const MilledChoice& c, bool whole) {
   const auto& cutter = *c.cutter;
+  if (c.passes > kMostPasses)
+    return say("{} would take more than {} passes", cutter.id, kMostPasses);
   const double D = cutter.dc_mm, ap = c.ap_mm(s.m);
   const bool closed = !c.out.left && !c.out.right;
   const double beside = depth_beside_mm(s.p, s.setup, s.m, D, c.out);

@@ -3,24 +3,32 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planning/values/most_passes.hpp"
+
 namespace turnwright::planning {
 namespace {
 
 using catalogue::Tool;
+
+constexpr std::size_t kMostRecipes = 20'000;  // of a pair of tools
 
 // Numbers of passes.
 struct Counts {
   int low = 1, high = 0;
 };
 
+// A quotient as a number of passes, counted to one more than there may be.
+int count(double passes) {
+  return static_cast<int>(std::clamp(passes, 0.0, kMostPasses + 1.0));
+}
+
 // The numbers of passes whose depths, within the tool's range, can add up to `stock`.
 Counts counts(const std::optional<int>& given, double least_stock, double most_stock,
               const Tool& t) {
   if (given) return {*given, *given};
-  const int low = static_cast<int>(std::ceil(least_stock / t.ap_mm.upper - 1e-9));
-  const int high =
-      static_cast<int>(std::floor(most_stock / catalogue::least_depth_mm(t) + 1e-9));
-  return {std::max(1, low), high};
+  const int low = count(std::ceil(least_stock / t.ap_mm.upper - 1e-9));
+  const int high = count(std::floor(most_stock / catalogue::least_depth_mm(t) + 1e-9));
+  return {std::max(1, low), std::min(high, kMostPasses)};
 }
 
 // The single pass over stock that is as thin as the least depth of a shoulder, or
@@ -58,12 +66,18 @@ std::vector<Recipe> recipes(const PreparedPart& p, const MachinedSurface& f,
             all.push_back(r);
           }
   };
+  const std::size_t alike = (rough ? ranges * pieces(rough) : 1) *
+                            (finish ? ranges * pieces(finish) : 1);  // of each count
+  const auto most_of = [&](const Counts& c) {
+    const auto counts = std::max<std::size_t>(1, kMostRecipes / alike);
+    return std::min(c.high, c.low + static_cast<int>(counts) - 1);
+  };
   const bool free = !w.given && !f.is_face();
   const double stock =
       f.is_shoulder() && finish ? catalogue::least_depth_mm(*finish) : f.stock_mm();
   if (finish && (!w.given || !w.rough)) {  // without roughing
     const auto c = counts_alone(w.fixed.finish.passes, stock, *finish);
-    const int most = free ? std::min(c.high, kFinishingPasses) : c.high;
+    const int most = free ? std::min(c.high, kFinishingPasses) : most_of(c);
     for (int n = c.low; n <= most; ++n) add({nullptr, finish, 0, n, 0, 0});
   }
   if (rough && finish) {
@@ -72,12 +86,12 @@ std::vector<Recipe> recipes(const PreparedPart& p, const MachinedSurface& f,
     for (int nf = first; nf <= last; ++nf) {
       const auto c = counts(w.fixed.rough.passes, stock - nf * finish->ap_mm.upper,
                             stock - nf * catalogue::least_depth_mm(*finish), *rough);
-      for (int n = c.low; n <= c.high; ++n) add({rough, finish, n, nf, 0, 0});
+      for (int n = c.low; n <= most_of(c); ++n) add({rough, finish, n, nf, 0, 0});
     }
   }
   if (rough && !finish && w.given) {
     const auto c = counts_alone(w.fixed.rough.passes, stock, *rough);
-    for (int n = c.low; n <= c.high; ++n) add({rough, nullptr, n, 0, 0, 0});
+    for (int n = c.low; n <= most_of(c); ++n) add({rough, nullptr, n, 0, 0, 0});
   }
   return all;
 }

@@ -210,6 +210,7 @@ class Follower {
   }
 
   void straight(const Spot& from, const Spot& to, std::size_t line) {
+    leave_if_asked();  // an arc has hundreds of these ways
     const double dx = std::abs(to.x - from.x), dz = std::abs(to.z - from.z);
     const double way = std::hypot(dx, dz);
     if (!(way > 0) || !goes_on(line)) return;

@@ -29,6 +29,15 @@ Workpiece::Workpiece(const planning::PreparedPart& part)
   for (const auto& [x, z] : part::half_section(part.drawing.stock))
     stock.push_back({x, z});
   section.fill(stock);
+  const auto& d = part.drawing;
+  for (std::size_t i = 0; i < d.outer.size(); ++i)
+    outer_left_mm_.push_back(part::left_z_mm(d, i));
+  for (std::size_t i = 0; i < d.inner.size(); ++i) {
+    const double left = part::inner_left_z_mm(d, i);
+    bores_.push_back({i, left, left + d.inner[i].length_mm});
+  }
+  for (const auto& s : part::inner_shoulders(d))
+    if (part::has_tolerance(d, s.id)) faced_walls_.push_back({s.id, s.z_mm});
 }
 
 void Workpiece::make_as_drawn(std::size_t setup) {
@@ -57,32 +66,31 @@ std::string Workpiece::element_at(double z, bool inner) const {
   if (inner) {
     std::string nearest;
     double least = INFINITY;
-    for (std::size_t i = 0; i < d.inner.size(); ++i) {
-      const double a = part::inner_left_z_mm(d, i), b = a + d.inner[i].length_mm;
-      const double away = std::max({a - z, z - b, 0.0});
+    for (const auto& b : bores_) {
+      const double away = std::max({b.left_mm - z, z - b.right_mm, 0.0});
       if (away >= least) continue;
       least = away;
-      nearest = d.inner[i].id;
+      nearest = d.inner[b.index].id;
     }
     return nearest;
   }
   std::size_t i = 0;
-  while (i + 1 < d.outer.size() && z > part::left_z_mm(d, i + 1)) ++i;
+  while (i + 1 < d.outer.size() && z > outer_left_mm_[i + 1]) ++i;
   return d.outer[i].id;
 }
 
 std::string Workpiece::face_at(double z, double within, bool inner) const {
   const auto& d = part_.drawing;
   if (inner) {
-    for (const auto& s : part::inner_shoulders(d))
-      if (part::has_tolerance(d, s.id) && std::abs(z - s.z_mm) <= within) return s.id;
+    for (const auto& wall : faced_walls_)
+      if (std::abs(z - wall.z_mm) <= within) return wall.id;
     return element_at(z, true);
   }
   const double L = part::length_mm(d);
   if (z >= L - within) return "right";
   if (z <= within) return "left";
   for (std::size_t k = 1; k < d.outer.size(); ++k)
-    if (std::abs(z - part::left_z_mm(d, k)) <= within) return planning::shoulder_id(d, k);
+    if (std::abs(z - outer_left_mm_[k]) <= within) return planning::shoulder_id(d, k);
   return element_at(z, false);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <string>
+#include <vector>
 
 #include "section.hpp"
 #include "turnwright/planning/prepared_part.hpp"
@@ -27,7 +28,19 @@ class Workpiece {
   std::optional<double> surface_mm(std::size_t column, bool inner) const;
 
  private:
+  struct Bore {
+    std::size_t index;
+    double left_mm, right_mm;
+  };
+  struct Wall {
+    std::string id;
+    double z_mm;
+  };
+
   const planning::PreparedPart& part_;
+  std::vector<double> outer_left_mm_;  // of each outer element
+  std::vector<Bore> bores_;
+  std::vector<Wall> faced_walls_;  // shoulders between bores
 };
 
 }  // namespace turnwright::review

@@ -96,6 +96,25 @@ TEST(Groove, WiderThanTheBladeTakesMorePlunges) {
   EXPECT_EQ(copy_of(r, "s1-groove-g1").passes.size(), 3U);  // of 6 mm
 }
 
+// Blades and depths may be as small as one likes.
+TEST(Groove, TakesAThousandPlungesAtMost) {
+  const auto with_blade = [](double width_mm) {
+    auto request = without_windows(part(grooved()));
+    std::erase_if(request.fixed_tools, [](const catalogue::FixedTool& t) {
+      return t.use == catalogue::FixedUse::grooving && t.id != "GROOVE-EXT";
+    });
+    for (auto& t : request.fixed_tools)
+      if (t.id == "GROOVE-EXT") t.sizes_mm = {width_mm};
+    return plan(prepare(std::move(request)));
+  };
+  EXPECT_EQ(copy_of(with_blade(0.005), "s1-groove-g1").passes.size(), 1000U);
+  for (const double width_mm : {0.004, 1e-8}) {
+    const auto r = with_blade(width_mm);
+    ASSERT_FALSE(r.conflicts.empty());
+    EXPECT_EQ(r.conflicts[0].sentence, "groove g1: it would take more than 1000 passes");
+  }
+}
+
 TEST(Thread, TurnsItsLengthPitchByPitch) {
   const auto p = as_in_catalogue(grooved());
   const auto o = copy_of(plan(p), "s1-thread-th1");
