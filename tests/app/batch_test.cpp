@@ -5,6 +5,7 @@
 #include <map>
 #include <random>
 #include <sstream>
+#include <string_view>
 #include <thread>
 
 #include "command_line.hpp"
@@ -12,6 +13,8 @@
 // `turnwright batch` as a user meets it, and whatever may befall it.
 namespace turnwright::app {
 namespace {
+
+constexpr bool kSanitized = !std::string_view(TURNWRIGHT_SANITIZE).empty();
 
 using Files = std::map<std::string, std::string>;
 
@@ -390,8 +393,7 @@ TEST_F(Batch, KilledAtAnyMomentItEndsAsIfUndisturbed) {
 class Faults : public Batch, public testing::WithParamInterface<const char*> {};
 
 TEST_P(Faults, AtEveryCallEndInAClearErrorAndTheNextRunGoesOn) {
-  if (std::string(TURNWRIGHT_SANITIZE) != "")
-    GTEST_SKIP() << "SKIPPED: the sanitizer wants to be loaded first";
+  if (kSanitized) GTEST_SKIP() << "SKIPPED: the sanitizer wants to be loaded first";
   const std::string fault = GetParam();
   const bool dies = fault == "kill" || fault == "short";
   put(folder_ / "lines.jsonl", mixed_lines(14, acceptance));
@@ -552,6 +554,7 @@ TEST_F(Batch, ADamagedManifestOrSummaryIsToldAndCanBeRemoved) {
 }
 
 TEST_F(Batch, ClocksDoNotMatter) {
+  if (kSanitized) GTEST_SKIP() << "SKIPPED: the sanitizer wants to be loaded first";
   if (shell("command -v faketime").code != 0) GTEST_SKIP() << "SKIPPED: no faketime";
   put(folder_ / "lines.jsonl", mixed_lines(20, multipass));
   const auto whole = undisturbed("--chunk 7");
