@@ -10,6 +10,7 @@
 #include <string>
 
 #include "base/say.hpp"
+#include "turnwright/base/cancelled.hpp"
 #include "turnwright/base/distributions.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/base/least_squares.hpp"
@@ -80,6 +81,7 @@ struct Model {
 };
 
 Model model(const Graph& g, int degree, const Places& places) {
+  leave_if_asked();
   const MatrixXd X = columns(g, degree, places);
   const MatrixXd Q = Eigen::HouseholderQR<MatrixXd>(X).householderQ() *
                      MatrixXd::Identity(X.rows(), X.cols());

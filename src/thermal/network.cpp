@@ -10,6 +10,7 @@
 #include <tuple>
 #include <utility>
 
+#include "turnwright/base/cancelled.hpp"
 #include "turnwright/optimise/local.hpp"
 #include "turnwright/optimise/nnls.hpp"
 
@@ -84,6 +85,7 @@ std::vector<Row> outermost(const Network& net, std::span<const Row> rows) {
   std::mt19937_64 random(0);
   std::set<std::size_t> kept;
   for (int d = 0; d < kDirections; ++d) {
+    leave_if_asked();
     Row direction{};
     for (double& x : direction) x = uniform(random);
     // The axes come first, in both directions.
@@ -177,6 +179,7 @@ double drift_um(const Network& net, const Row& row) {
 }
 
 Reach reach(const Network& net, const Row& row) {
+  leave_if_asked();
   for (std::size_t i = 0; i < kInputs; ++i)
     if (!(row[i] >= net.least[i] && row[i] <= net.largest[i])) return Reach::outside;
   // A mixture: z = sum lambda_k z_k with lambda >= 0 and sum lambda = 1.

@@ -8,6 +8,8 @@
 #include <span>
 #include <stdexcept>
 
+#include "turnwright/base/cancelled.hpp"
+
 namespace turnwright::tolerance {
 namespace {
 
@@ -168,6 +170,7 @@ Zone minimum_zone_of(const PiecewisePolynomial& f, double magnitude) {
   // Each round at least halves the interval of possible slopes.  Where the width is
   // smooth in the slope its error falls by a factor of four: 50 rounds reach 2^-100.
   for (int round = 0; round < 50; ++round) {
+    leave_if_asked();
     const Zone lower = zone_of(points);
     const std::vector<Point> next = turning_points(all, lower.slope);
     const double upper = width(about_line(next, lower.slope));

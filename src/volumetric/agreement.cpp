@@ -5,6 +5,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "turnwright/base/cancelled.hpp"
 #include "turnwright/base/distributions.hpp"
 
 namespace turnwright::volumetric {
@@ -13,6 +14,8 @@ namespace {
 double mean(const std::vector<double>& v) {
   return std::accumulate(v.begin(), v.end(), 0.0) / static_cast<double>(v.size());
 }
+
+double power_of_two_near(double x) { return x > 0 ? std::exp2(std::ilogb(x)) : 1; }
 
 /// Two-sided probability of a value of at least |t|.
 double two_sided(double t, double dof) { return 2 * student_exceeds(std::abs(t), dof); }
@@ -93,9 +96,13 @@ Agreement agreement(const Runs& a, const Runs& b) {
   out.difference = out.a.mean - out.b.mean;
   out.overlap = std::abs(out.difference) <= out.a.sd + out.b.sd;
   const auto na = static_cast<double>(in_a.size()), nb = static_cast<double>(in_b.size());
-  const double va = out.a.sd * out.a.sd / na, vb = out.b.sd * out.b.sd / nb;
+  // In units of a power of two near the larger deviation, so that no square of a variance
+  // is too small to be a number.
+  const double unit = power_of_two_near(std::max(out.a.sd, out.b.sd)),
+               sa = out.a.sd / unit, sb = out.b.sd / unit;
+  const double va = sa * sa / na, vb = sb * sb / nb;
   if (va + vb > 0) {  // Welch and Satterthwaite
-    out.t = out.difference / std::sqrt(va + vb);
+    out.t = out.difference / unit / std::sqrt(va + vb);
     out.dof = (va + vb) * (va + vb) / (va * va / (na - 1) + vb * vb / (nb - 1));
     out.p = two_sided(*out.t, *out.dof);
   }
@@ -106,7 +113,8 @@ std::vector<CommonJump> common_jumps(const std::vector<Runs>& group) {
   std::size_t runs = 0;
   for (const Runs& r : group) runs = std::max(runs, r.value.size());
   std::vector<CommonJump> out;
-  for (std::size_t run = 0; run < runs; ++run)
+  for (std::size_t run = 0; run < runs; ++run) {
+    leave_if_asked();
     for (const double sense : {1.0, -1.0}) {
       CommonJump common{.run = run, .parameters = {}, .jump = {}};
       for (const Runs& r : group) {
@@ -119,6 +127,7 @@ std::vector<CommonJump> common_jumps(const std::vector<Runs>& group) {
       const auto [low, high] = std::ranges::minmax(common.jump);
       if (high - low < std::abs(mean(common.jump)) / 2) out.push_back(std::move(common));
     }
+  }
   return out;
 }
 

@@ -184,6 +184,7 @@ class Walk {
   void split(const End& a, const End& b, const Vec3& sign, int depth) {
     constexpr int kDeepest = 12;
     if (depth == kDeepest || norm(b.at - a.at) <= unsplit_mm_) return;
+    leave_if_asked();
     const auto inside = [&](double share) -> End {
       const Vec3 at = a.at + share * (b.at - a.at);
       return {at, field_.error(*tool_, at, sign, at)};
@@ -471,6 +472,7 @@ Compensated compensate(const NcProgram& program, const Machine& machine,
   Run run(field, writer, options, program.start_mm);
   Distances before, after;
   const auto write = [&](Stop& s) {
+    leave_if_asked();
     out.lines.push_back(writer.block(*s.move, s.command, s.first, s.last));
     run.go(s);
     if (out.lines.size() > setup.moves_max)
@@ -505,7 +507,6 @@ Compensated compensate(const NcProgram& program, const Machine& machine,
   });
   if (!full) fitted(options.method, field, options.passes, stops);
   for (Stop& s : stops) {
-    leave_if_asked();
     if (s.move->moves)
       write(s);
     else

@@ -3,8 +3,10 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
+#include "turnwright/base/cancelled.hpp"
 #include "turnwright/base/least_squares.hpp"
 
 namespace turnwright::volumetric {
@@ -102,10 +104,14 @@ VectorXd best_uniform(const MatrixXd& A, const VectorXd& v) {
   Reference ref = first_reference(A);
   VectorXd x = VectorXd::Zero(m), target = VectorXd::Unit(m + 1, m);
   const double rounding = 1e-14 * v.cwiseAbs().maxCoeff();
+  const VectorXd size = A.cwiseAbs().colwise().maxCoeff();
   // Exchanges with the worst point end after about ten.  Degenerate references, where an
-  // exchange gains nothing, could cycle; Bland's rule prevents that.
+  // exchange gains nothing, could cycle; Bland's rule prevents that.  Columns that nearly
+  // depend on each other have large terms that cancel: then the rounding of these decides.
   const Index patience = 50 * (m + 1), most = 100 * A.rows() + patience;
+  constexpr double kOfTerms = 16 * std::numeric_limits<double>::epsilon();
   for (Index step = 0; step < most; ++step) {
+    leave_if_asked();
     const Eigen::PartialPivLU<MatrixXd> lu(dual_basis(A, ref));
     VectorXd cost(m + 1);
     for (Index i = 0; i <= m; ++i)
@@ -114,7 +120,8 @@ VectorXd best_uniform(const MatrixXd& A, const VectorXd& v) {
     const VectorXd price = lu.transpose().solve(cost);
     x = price.head(m);
     const VectorXd r = v - A * x;
-    const double limit = price[m] + rounding;
+    const double of_terms = step < patience ? 0 : kOfTerms * size.dot(x.cwiseAbs());
+    const double limit = price[m] + std::max(rounding, of_terms);
     Index entering = 0;
     if (step < patience)
       r.cwiseAbs().maxCoeff(&entering);

@@ -7,8 +7,10 @@
 #include <limits>
 #include <numbers>
 #include <stdexcept>
+#include <stop_token>
 
 #include "random_shafts.hpp"
+#include "turnwright/base/cancelled.hpp"
 #include "turnwright/deflection/response.hpp"
 
 namespace turnwright::deflection {
@@ -214,6 +216,14 @@ TEST(DeviationGraph, ConstantGraphAndRefusals) {
   auto nan = e;
   nan[3] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(deviation_graph(z, nan), std::domain_error);
+}
+
+TEST(DeviationGraph, HearsThatNobodyWaits) {
+  std::stop_source source;
+  source.request_stop();
+  const std::stop_token token = source.get_token();
+  const Listening listening(token);
+  EXPECT_THROW(deviation_graph(places(20, 100), std::vector<double>(20, 0)), Cancelled);
 }
 
 }  // namespace

@@ -2,10 +2,12 @@
 
 #include <limits>
 #include <set>
+#include <stop_token>
 
 #include "../document/schema_check.hpp"
 #include "document/json/parse.hpp"
 #include "service/requests.hpp"
+#include "turnwright/base/cancelled.hpp"
 #include "turnwright/base/errors.hpp"
 
 namespace turnwright::service::answer_test {
@@ -80,6 +82,19 @@ TEST(Requests, EveryRowIsNamedOnceAndItsExampleIsAnsweredAsItsSchemaSays) {
     EXPECT_TRUE(result.contains("format"));
     EXPECT_FALSE(infeasible(result));
     EXPECT_EQ(document::SchemaCheck(result_schema(row)).fault(result), "");
+  }
+}
+
+TEST(Requests, LongListsOfExamplesHearThatNobodyWaits) {
+  std::stop_source source;
+  source.request_stop();
+  for (const char* name :
+       {"deflection", "acceptance", "geometry", "ballbar", "compare", "compensate"}) {
+    const Request& row = *find_request(name);
+    EXPECT_THROW(answer(row, document::parse(row.example, row.name),
+                        {.catalogue = kNothing, .stop = source.get_token()}),
+                 Cancelled)
+        << name;
   }
 }
 

@@ -4,6 +4,9 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <stop_token>
+
+#include "turnwright/base/cancelled.hpp"
 
 namespace turnwright::thermal {
 namespace {
@@ -84,6 +87,16 @@ TEST(Network, SaysWhereItKnowsNothing) {
   // Each in its range, but a full speed was never seen at time 0.
   EXPECT_EQ(reach(net, {3000, 200, 0, 21}), Reach::between_rows);
   EXPECT_EQ(reach(net, {NAN, 200, 1200, 21}), Reach::outside);
+}
+
+TEST(Network, HearsThatNobodyWaits) {
+  const auto d = grid();
+  const Network net = train(d.rows, d.error_um, {.max_evaluations = 20});
+  std::stop_source source;
+  source.request_stop();
+  const std::stop_token token = source.get_token();
+  const Listening listening(token);
+  EXPECT_THROW(reach(net, {1500, 200, 1200, 21}), Cancelled);
 }
 
 TEST(Network, RefusesRowsWithoutErrors) {

@@ -28,6 +28,14 @@ TEST(Agreement, WelchOfEqualListsIsStudents) {
   EXPECT_NEAR(a.correlation->r, 1, 1e-12);
 }
 
+TEST(Agreement, WelchDoesNotDependOnTheUnit) {
+  // The squares of these variances are below the least double.
+  const Agreement a = agreement({"x", {1e-99, 2e-99, 3e-99, 4e-99, 5e-99}},
+                                {"x", {3e-99, 4e-99, 5e-99, 6e-99, 7e-99}});
+  EXPECT_NEAR(*a.t, -2, 1e-12);
+  EXPECT_NEAR(*a.dof, 8, 1e-12);
+}
+
 TEST(Agreement, CorrelationOfFourRuns) {
   const Agreement a = agreement({"x", {1, 2, 3, 4}}, {"x", {2, 1, 4, 3}});
   EXPECT_NEAR(a.correlation->r, 0.6, 1e-12);

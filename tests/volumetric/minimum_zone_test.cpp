@@ -6,8 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <random>
 #include <stdexcept>
+#include <stop_token>
+
+#include "turnwright/base/cancelled.hpp"
 
 namespace turnwright::volumetric {
 namespace {
@@ -104,6 +108,34 @@ TEST(MinimumZone, DoesNotDependOnTheOrderOfPoints) {
     }
     EXPECT_NEAR(minimum_zone(p.basis, 3, p.values).width, width, 1e-12);
   }
+}
+
+/// Points at places from `from` to `from` + 1, with the basis of a cylinder's form.
+Points short_cylinder(double from) {
+  Points p{{}, {}, 4};
+  for (int i = 0; i < 24; ++i)
+    for (int j = 0; j < 5; ++j) {
+      const double t = std::numbers::pi * i / 12, z = from + 0.25 * j;
+      for (const double x : {std::cos(t), std::sin(t), z * std::cos(t), z * std::sin(t)})
+        p.basis.push_back(x);
+      p.values.push_back(0.1 * std::cos(2 * t + j) + 0.01 * std::sin(t * j));
+    }
+  return p;
+}
+
+TEST(MinimumZone, ColumnsThatNearlyDependOnEachOtherChangeNothing) {
+  const Points near = short_cylinder(0), far = short_cylinder(1e6);
+  EXPECT_NEAR(minimum_zone(far.basis, 4, far.values).width,
+              minimum_zone(near.basis, 4, near.values).width, 1e-8);
+}
+
+TEST(MinimumZone, HearsThatNobodyWaits) {
+  std::stop_source source;
+  source.request_stop();
+  const std::stop_token token = source.get_token();
+  const Listening listening(token);
+  const Points p = short_cylinder(0);
+  EXPECT_THROW(minimum_zone(p.basis, 4, p.values), Cancelled);
 }
 
 TEST(MinimumZone, DegenerateInput) {

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <map>
 #include <optional>
+#include <set>
 #include <string_view>
 
 #include "base/say.hpp"
@@ -103,13 +105,16 @@ std::optional<Header> read_header(const Reader& csv, const Line& line,
     good = false;
   };
   std::vector<std::string> strangers;
+  std::map<std::string_view, const CsvColumn*> by_name;
+  for (const CsvColumn& column : columns) by_name.emplace(column.name, &column);
+  std::set<std::string_view> seen;
   for (const std::string& name : *names) {
-    const auto found = std::ranges::find(columns, name, &CsvColumn::name);
-    const CsvColumn* const column = found == columns.end() ? nullptr : &*found;
+    const auto found = by_name.find(name);
+    const CsvColumn* const column = found == by_name.end() ? nullptr : found->second;
     if (!column && others == OtherColumns::refused)
       wrong(say("column {}", shown(name)), say("columns of {}", list(columns)),
             "unknown-key");
-    else if (column && std::ranges::count(out.columns, column) > 0)
+    else if (column && !seen.insert(name).second)
       wrong(say("column {} again", shown(name)), tr("each column once"), "duplicate");
     out.columns.push_back(column);
     if (!column) strangers.push_back(name);

@@ -129,6 +129,8 @@ std::string nearest(std::string_view word, const std::vector<std::string>& known
   std::string best;
   std::size_t fewest = std::max<std::size_t>(2, word.size() / 3) + 1;
   for (const auto& candidate : known) {
+    const auto [shorter, longer] = std::minmax({word.size(), candidate.size()});
+    if (longer - shorter >= fewest) continue;  // as many edits at least
     const std::size_t n = edits(word, candidate);
     if (n >= fewest || n >= candidate.size()) continue;
     fewest = n;

@@ -9,6 +9,7 @@
 
 #include "budget.hpp"
 #include "document/json/fields.hpp"
+#include "turnwright/base/cancelled.hpp"
 #include "turnwright/base/language.hpp"
 #include "turnwright/base/units.hpp"
 #include "turnwright/tolerance/acceptance.hpp"
@@ -185,6 +186,7 @@ std::vector<NamedCase> read_request(const nlohmann::json& request) {
 nlohmann::json acceptance(const nlohmann::json& request) {
   auto cases = nlohmann::json::array();
   for (const auto& [id, value, budget] : read_request(request)) {
+    leave_if_asked();
     const tolerance::Verdict v = tolerance::verdict(value);
     nlohmann::json out{{"accepted", v.accepted},
                        {"accepted_after_offset", v.accepted_after_offset},

@@ -12,6 +12,7 @@
 #include "base/say.hpp"
 #include "document/json/csv.hpp"
 #include "document/json/fields.hpp"
+#include "turnwright/base/cancelled.hpp"
 #include "turnwright/volumetric/agreement.hpp"
 
 namespace turnwright::document {
@@ -195,6 +196,7 @@ void add_jumps(const Calibration& own, const Calibration& other, json& jumps,
     for (const CommonJump& jump : common_jumps(runs)) {
       json changed = json::array();
       for (const Runs& r : runs) {
+        leave_if_asked();
         const RunRow* against = row_of(other, r.name);
         if (!against || values(r).size() < 3) continue;
         const bool before = agreement(r, against->runs).overlap;

@@ -12,6 +12,7 @@
 #include "document/json/fields.hpp"
 #include "document/json/finite.hpp"
 #include "document/part/milled_shaft.hpp"
+#include "turnwright/base/cancelled.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/base/units.hpp"
 #include "turnwright/deflection/boring_bar.hpp"
@@ -389,6 +390,7 @@ json positions(const Workpiece& part, const Held& held, const DeflectionRequest&
   json list = json::array();
   const Planes f = held.at(q.positions_mm);
   for (std::size_t i = 0; i < q.positions_mm.size(); ++i) {
+    leave_if_asked();
     const double a = q.positions_mm[i], D = part.diameter_mm(part.segment_at(a), a);
     list.push_back(q.force_law
                        ? position(a, D, f.radial[i], f.tangential[i], *q.force_law)
@@ -408,6 +410,7 @@ json largest_error(const Workpiece& part, const Held& held, const DeflectionRequ
   const Envelope e = envelope(part.ends_mm(), [&](std::size_t segment,
                                                   std::span<const double> a_mm,
                                                   std::span<double> e_mm) {
+    leave_if_asked();
     const Planes f = held.at(a_mm);
     for (std::size_t i = 0; i < a_mm.size(); ++i) {
       const double D = part.diameter_mm(segment, a_mm[i]);

@@ -3,6 +3,7 @@
 #include "document/catalogue/machine_fields.hpp"
 #include "document/json/fields.hpp"
 #include "turned.hpp"
+#include "turnwright/base/cancelled.hpp"
 
 namespace turnwright::document {
 namespace {
@@ -48,6 +49,7 @@ json geometry(const json& request) {
   const Kinematics kinematics(machine);
   json out = json::array();
   for (const Position& at : points) {
+    leave_if_asked();
     const ToolPose nominal = kinematics.nominal(at), actual = kinematics.actual(at);
     out.push_back(
         {{"tip_nominal_mm", nominal.tip_mm},

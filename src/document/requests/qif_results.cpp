@@ -15,6 +15,7 @@
 #include "base/say.hpp"
 #include "document/json/text_lines.hpp"
 #include "document/json/utf8.hpp"
+#include "turnwright/base/cancelled.hpp"
 
 namespace turnwright::document::measured_parts {
 namespace {
@@ -250,6 +251,7 @@ class QifFile {
 
   void read_measurement(const pugi::xml_node& m, const std::string& own_component,
                         const std::string& when) {
+    leave_if_asked();  // what it refers to may be long
     constexpr std::string_view kEnding = "CharacteristicMeasurement";
     auto kind = name_of(m);
     if (kind.ends_with(kEnding)) kind.remove_suffix(kEnding.size());

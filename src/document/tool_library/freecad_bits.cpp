@@ -18,8 +18,7 @@ using nlohmann::json;
 // Parameters of a bit, "6.35 mm" or "45.00 °"; those that cannot be read are collected.
 class Parameters {
  public:
-  explicit Parameters(const json& bit)
-      : values_(bit.value("parameter", json::object())) {}
+  explicit Parameters(const json& bit) : values_(member_of(bit, "parameter")) {}
   bool has(const char* key) const { return values_.contains(key); }
   double length_mm(const char* key) { return read(key, "mm"); }
   double angle_deg(const char* key) { return read(key, "deg"); }
@@ -32,7 +31,7 @@ class Parameters {
     return unit == "°" || unit == "deg" ? std::optional(1.0) : std::nullopt;
   }
   double read(const char* key, const char* wanted) {
-    const json value = values_.value(key, json());
+    const json& value = member_of(values_, key);
     std::optional<double> number;
     if (value.is_number()) number = value.get<double>();
     if (value.is_string()) {
@@ -46,7 +45,7 @@ class Parameters {
                   wrong_.empty() ? "" : "; ", key, shown(value), wanted);
     return 0;
   }
-  json values_;
+  const json& values_;
   std::string wrong_;
 };
 
@@ -69,22 +68,21 @@ std::optional<LibraryTool> read_hole_bit(const json& bit, Parameters& parameters
   t.LU_mm = given("CuttingEdgeLength");
   if (parameters.has("CuttingEdgeAngle"))
     t.SIG_deg = parameters.angle_deg("CuttingEdgeAngle");
-  const auto attribute = bit.value("attribute", json::object());
+  const json& attribute = member_of(bit, "attribute");
   if (!parameters.wrong().empty())
     why = say("It cannot be read: {}.", parameters.wrong());
-  else if (attribute.is_object() &&
-           attribute.value("SpindleDirection", json()) == "Reverse")
+  else if (member_of(attribute, "SpindleDirection") == "Reverse")
     why = tr("It turns to the left: part documents have right-hand threads.");
   return why.empty() ? std::optional(t) : std::nullopt;
 }
 
 std::optional<LibraryTool> read_bit(const json& bit, std::string& why) {
   Parameters parameters(bit);
-  if (const auto shape = bit.value("shape", json()); shape.is_string()) {
+  if (const json& shape = member_of(bit, "shape"); shape.is_string()) {
     const auto& file = shape.get_ref<const std::string&>();
     LibraryTool hole;
     hole.use = hole_use(file.substr(0, file.find('.')));
-    const auto called = bit.value("name", json());
+    const json& called = member_of(bit, "name");
     if (called.is_string()) hole.name = called.get<std::string>();
     hole.texts = {hole.name};
     if (!hole.use.empty()) return read_hole_bit(bit, parameters, std::move(hole), why);
@@ -95,7 +93,7 @@ std::optional<LibraryTool> read_bit(const json& bit, std::string& why) {
     return std::nullopt;
   }
   LibraryTool t;
-  const auto name = bit.value("name", json());
+  const json& name = member_of(bit, "name");
   if (name.is_string()) t.name = name.get<std::string>();
   t.texts = {t.name};
   const double tip_deg = parameters.angle_deg("TipAngle");
@@ -116,10 +114,10 @@ std::optional<LibraryTool> read_bit(const json& bit, std::string& why) {
 std::vector<std::pair<long, std::string>> paths_of(const json& library) {
   std::vector<std::pair<long, std::string>> all;
   if (!library.is_object()) return all;
-  for (const auto& tool : library.value("tools", json::array())) {
+  for (const auto& tool : member_of(library, "tools")) {
     if (!tool.is_object() || all.size() >= kMostTools) continue;
-    const auto path = tool.value("path", json());
-    const auto number = tool.value("nr", json());
+    const json& path = member_of(tool, "path");
+    const json& number = member_of(tool, "nr");
     if (path.is_string())
       all.emplace_back(number.is_number_integer() ? number.get<long>() : 0,
                        path.get<std::string>());
@@ -156,9 +154,8 @@ ToolLibrary read_freecad_bits(const std::vector<NamedJson>& bits) {
   ToolLibrary out;
   for (const auto& [name, value] : bits) {
     std::string why;
-    auto tool = value->is_object() && value->value("parameter", json()).is_object()
-                    ? read_bit(*value, why)
-                    : std::nullopt;
+    auto tool =
+        member_of(*value, "parameter").is_object() ? read_bit(*value, why) : std::nullopt;
     if (tool) {
       tool->at = name;
       out.tools.push_back(std::move(*tool));

@@ -14,12 +14,6 @@ namespace {
 
 using nlohmann::json;
 
-const json& member_of(const json& object, const char* key) {
-  static const json kNothing;
-  const auto found = object.is_object() ? object.find(key) : object.end();
-  return found == object.end() ? kNothing : *found;
-}
-
 std::string text_at(const json& object, const char* key) {
   const json& value = member_of(object, key);
   return value.is_string() ? value.get<std::string>() : std::string();

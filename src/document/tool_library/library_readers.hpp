@@ -13,6 +13,13 @@
 /// its place and the reason.
 namespace turnwright::document {
 
+/// The member of an object, not copied, for it may be large; null if there is none.
+inline const nlohmann::json& member_of(const nlohmann::json& object, const char* key) {
+  static const nlohmann::json kNothing;
+  const auto found = object.is_object() ? object.find(key) : object.end();
+  return found == object.end() ? kNothing : *found;
+}
+
 /// A library of Autodesk Fusion, `{"data": [..]}`: the tools "turning general" and "turning
 /// boring".  Every tool has its unit, and so may its holder.  INSD is the edge's length with
 /// SIZE_SPECIFICATION_MODE "CE", and otherwise that or the inscribed circle.  Zeros are not

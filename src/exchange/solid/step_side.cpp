@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
+#include <utility>
 
 #include "turnwright/base/cancelled.hpp"
 
@@ -162,8 +164,10 @@ std::optional<TurnedSide> straight(const Face& face, const Axis& axis, const Rim
 std::optional<Point> widest(const Rim& rim, bool ahead) {
   std::optional<Point> at;
   double most = 0;
+  std::set<std::pair<double, double>> judged;  // a file may name one ring again and again
   for (const auto& ring : rim.rings) {
     if (ring.ahead != ahead) continue;
+    if (!judged.emplace(ring.at.z_mm, ring.at.r_mm).second) continue;
     leave_if_asked();
     if (const double turn = round_rad(rim, ring.at); turn > most)
       at = ring.at, most = turn;

@@ -4,9 +4,11 @@
 
 #include <fstream>
 #include <iterator>
+#include <stop_token>
 
 #include "../slips.hpp"
 #include "document/json/file.hpp"
+#include "turnwright/base/cancelled.hpp"
 #include "turnwright/document/learn.hpp"
 
 namespace turnwright::document::learn_qif_test {
@@ -124,6 +126,16 @@ TEST(LearnQif, GivesTheAnswersOfTheSameTable) {
     }
   EXPECT_EQ(b[0]["device"] == "Micrometer 0-25" || b[1]["device"] == "Micrometer 0-25",
             true);
+}
+
+TEST(LearnQif, HearsThatNobodyWaits) {
+  std::stop_source source;
+  source.request_stop();
+  const std::stop_token token = source.get_token();
+  const json request = request_of({});
+  (void)catalogue();  // loading it is not what hears
+  const Listening listening(token);
+  EXPECT_THROW(learn(request, catalogue()), Cancelled);
 }
 
 // Each value and limit in its unit: that of its attribute, the file's, or metres.
