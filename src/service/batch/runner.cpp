@@ -5,7 +5,9 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
+#include <exception>
 
 #include "document/json/parse.hpp"
 #include "known_answers.hpp"
@@ -26,6 +28,29 @@ struct Item {
   BatchStatus status = BatchStatus::ok;
   std::string key;         ///< of its chunk, with the chunk's last line
   std::int64_t found = 0;  ///< lines before it that earlier runs have answered
+};
+
+// What filters do until one of them fails, which ends the pipeline early.  TBB does not free
+// the items in flight when a filter throws.
+class FirstFailure {
+ public:
+  template <class Work>
+  void unless(const Work& work) {
+    if (happened_) return;
+    try {
+      work();
+    } catch (...) {
+      if (!happened_.exchange(true)) what_ = std::current_exception();
+    }
+  }
+  // Once all filters have ended.
+  void rethrow() const {
+    if (what_) std::rethrow_exception(what_);
+  }
+
+ private:
+  std::atomic<bool> happened_ = false;
+  std::exception_ptr what_;
 };
 
 // A line that BatchInput has cut off is not blank, even if it begins with blanks.
@@ -144,30 +169,35 @@ void run_batch(BatchInput& input, const BatchFolder& folder, const Shard& shard,
   KnownAnswers known;
   Records records(folder);
 
-  const auto read = tbb::make_filter<void, Item>(tbb::filter_mode::serial_in_order,
-                                                 [&](tbb::flow_control& flow) {
-                                                   Item item;
-                                                   if (!missing.next(item)) flow.stop();
-                                                   return item;
-                                                 });
-  const auto work =
-      tbb::make_filter<Item, Item>(tbb::filter_mode::parallel, [&](Item item) {
-        answer(item, catalogue, known);
+  FirstFailure failure;
+  const auto read = tbb::make_filter<void, Item>(
+      tbb::filter_mode::serial_in_order, [&](tbb::flow_control& flow) {
+        Item item;
+        bool more = false;
+        failure.unless([&] { more = missing.next(item); });
+        if (!more) flow.stop();
         return item;
       });
-  // Items are taken by value: TBB does not free those in which a filter throws.
+  const auto work =
+      tbb::make_filter<Item, Item>(tbb::filter_mode::parallel, [&](Item item) {
+        failure.unless([&] { answer(item, catalogue, known); });
+        return item;
+      });
   const auto write = tbb::make_filter<Item, void>(tbb::filter_mode::serial_in_order,
-                                                  [&](const Item item) {
-                                                    records.add(item);
-                                                    progress.found = item.found;
-                                                    ++progress.done;
-                                                    tell(progress);
+                                                  [&](const Item& item) {
+                                                    failure.unless([&] {
+                                                      records.add(item);
+                                                      progress.found = item.found;
+                                                      ++progress.done;
+                                                      tell(progress);
+                                                    });
                                                   });
 
   const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, jobs);
   tbb::task_arena arena(static_cast<int>(jobs));
   arena.execute(
       [&] { tbb::parallel_pipeline(jobs * kInFlightPerJob, read & work & write); });
+  failure.rethrow();
   progress.found = missing.found();
   tell(progress);
 }
