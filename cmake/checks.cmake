@@ -24,8 +24,7 @@ set_tests_properties(architecture.refuses_reader PROPERTIES PASS_REGULAR_EXPRESS
 add_executable(part_reader ${architecture}/part_reader.cpp src/planning/values/names.cpp)
 target_link_libraries(part_reader PRIVATE tw_dev
   $<TARGET_FILE:turnwright_document> turnwright::tolerance turnwright::deflection
-  turnwright::cutting turnwright::volumetric turnwright::catalogue
-  nlohmann_json::nlohmann_json fmt::fmt)
+  turnwright::volumetric turnwright::catalogue nlohmann_json::nlohmann_json fmt::fmt)
 target_include_directories(part_reader PRIVATE src include)
 set_target_properties(part_reader PROPERTIES UNITY_BUILD OFF)
 add_dependencies(part_reader turnwright_document)

@@ -302,8 +302,6 @@ nlohmann::json drilled_pin(const nlohmann::json& own) {
   return document;
 }
 
-// The drill's tip stays on the part's axis; it goes deeper by feed alone, comes out after each
-// peck, back to 0.5 mm before the depth it had, and takes the plan's time.
 // A program of millions of moves would be no use, and more than memory holds.
 TEST(MilledPlaces, OfMoreMovesThanAProgramHasAreNotProgrammed) {
   auto p = planned(pin("left", flat(20, 32, "ENDMILL-HM-12")));
@@ -317,6 +315,8 @@ TEST(MilledPlaces, OfMoreMovesThanAProgramHasAreNotProgrammed) {
   EXPECT_EQ(all.cannot[0], "setup 1: its program would have more than 200000 moves");
 }
 
+// The drill's tip stays on the part's axis; it goes deeper by feed alone, comes out after each
+// peck, back to 0.5 mm before the depth it had, and takes the plan's time.
 TEST(CrossHoles, AreDrilledInPecksAlongTheRadius) {
   const double point = 4 / std::tan(59 * 3.14159265358979 / 180), R = 20;
   const auto& p = planned(drilled_pin({{"at_mm", 40}}));

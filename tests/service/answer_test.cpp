@@ -89,7 +89,7 @@ TEST(Requests, LongListsOfExamplesHearThatNobodyWaits) {
   std::stop_source source;
   source.request_stop();
   for (const char* name :
-       {"deflection", "acceptance", "geometry", "ballbar", "compare", "compensate"}) {
+       {"deflection", "acceptance", "geometry", "ballbar", "compare"}) {
     const Request& row = *find_request(name);
     EXPECT_THROW(answer(row, document::parse(row.example, row.name),
                         {.catalogue = kNothing, .stop = source.get_token()}),

@@ -6,7 +6,6 @@
 #include "document/json/fields.hpp"
 #include "machine_fields.hpp"
 #include "turnwright/base/units.hpp"
-#include "turnwright/cutting/spindle.hpp"
 
 namespace turnwright::document {
 namespace {
@@ -32,8 +31,6 @@ catalogue::CurvePoint read_point(Reader r) {
   return p;
 }
 
-constexpr std::size_t kMostRanges = 10;
-
 template <class Drive>
 void read_curve(Reader& group, Drive& d) {
   const auto points = group.items("curve", 2, 50);
@@ -52,18 +49,12 @@ void read_curve(Reader& group, Drive& d) {
 // The main spindle, or the one of the driven tools.
 template <class Drive>
 void read_drive(Reader& group, Drive& d) {
-  const auto before = group.problems().list.size();
   d.n_min_rpm = group.number("n_min_rpm", kSpeed);
   d.n_max_rpm = group.number("n_max_rpm", kSpeed);
   if (d.n_min_rpm >= d.n_max_rpm)
     group.problem_at("n_min_rpm", tr("a speed below n_max_rpm"), "order");
   d.efficiency = group.number("efficiency", above_up_to(0, 1));
   read_curve(group, d);
-  if (group.problems().list.size() == before && !d.curve.empty() &&
-      cutting::speed_ranges(d).size() > kMostRanges)
-    group.problem_at("curve",
-                     say("a curve that bends upwards at most {} times", kMostRanges - 1),
-                     "limit");
 }
 
 void read_spindle(Reader group, catalogue::Lathe& m) {

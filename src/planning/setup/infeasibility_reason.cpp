@@ -57,7 +57,7 @@ std::string why_none(const PreparedPart& plan, const MachinedSurface& f) {
         ": no tools that clear the live centre, with a point of {:g} mm and a body of "
         "{:g} mm {:g} mm behind its tip, give a depth they can cut",
         c.point_mm, c.body_mm, c.point_length_mm);
-  return tr(": no tool and pass count give a depth its tool can cut");
+  return tr(": no tool and number of passes up to 1000 give a depth its tool can cut");
 }
 
 }  // namespace

@@ -10,7 +10,7 @@ namespace {
 
 using catalogue::Tool;
 
-constexpr std::size_t kMostRecipes = 20'000;  // of a pair of tools
+constexpr std::size_t kMostRecipes = 100'000;  // of a pair of tools
 
 // Numbers of passes.
 struct Counts {
@@ -35,7 +35,7 @@ Counts counts(const std::optional<int>& given, double least_stock, double most_s
 // thinner.
 Counts counts_alone(const std::optional<int>& given, double stock, const Tool& t) {
   auto c = counts(given, stock, stock, t);
-  c.high = std::max(c.low, c.high);
+  if (c.low <= kMostPasses || given) c.high = std::max(c.low, c.high);
   return c;
 }
 

@@ -10,7 +10,6 @@
 
 #include "document/catalogue/catalogue_readers.hpp"
 #include "document/json/file.hpp"
-#include "turnwright/base/units.hpp"
 
 namespace turnwright::document::catalogue_test {
 namespace {
@@ -449,28 +448,6 @@ TEST(Catalogue, NumbersThatContradictEachOtherAreRefused) {
             "n_max_rpm or above\n"
             "/chuck/diameter_mm: got [200,10], expected [lower, upper] with lower <= "
             "upper\n");
-}
-
-// Each range of speeds multiplies the recipes of a surface.
-TEST(Catalogue, CurvesHaveAtMostTenRangesOfSpeeds) {
-  const auto zigzag = [](int points) {
-    auto lathe = example(kLathe);
-    auto& spindle = lathe["spindle"];
-    spindle["n_min_rpm"] = 100;
-    spindle["n_max_rpm"] = 100 * points;
-    spindle["curve"] = nlohmann::json::array();
-    for (int k = 1; k <= points; ++k) {
-      const double n_rpm = 100 * k, M_Nm = k % 2 ? 100 : 50;
-      spindle["curve"].push_back({{"n_rpm", n_rpm},
-                                  {"M_Nm", M_Nm},
-                                  {"P_kW", units::shaft_power_kW(M_Nm, n_rpm)}});
-    }
-    return problems_of(read_lathe, lathe);
-  };
-  EXPECT_EQ(zigzag(19), "");
-  EXPECT_EQ(zigzag(21),
-            "/spindle/curve: got a list of 21 entries, expected a curve that bends "
-            "upwards at most 9 times\n");
 }
 
 TEST(Catalogue, LoadsAFolderInOrderOfIds) {

@@ -34,10 +34,26 @@ TEST(Recipes, HaveAThousandPassesAtMost) {
   EXPECT_TRUE(of_depths({1e-8, 1e-7}).empty());
 }
 
+// A face is made by any number of finishing passes.
+TEST(Recipes, OfAFaceHaveAThousandPassesAtMost) {
+  auto p = part(pin());
+  const auto f =
+      MachinedSurface::end_face(p, 0, nothing_finished(p.drawing), GivenConditions{});
+  auto& t = p.tools.front();
+  t.re_mm = 0;
+  const auto in_passes = [&](double passes) {
+    t.ap_mm = {1e-8, f.stock_mm() / passes};
+    return recipes(p, f, {}, nullptr, &t);
+  };
+  ASSERT_FALSE(in_passes(999.9).empty());
+  EXPECT_EQ(in_passes(999.9).front().finish_passes, 1000);
+  EXPECT_TRUE(in_passes(1000.1).empty());
+}
+
 // Every number of passes comes with every piece of both windows.
 TEST(Recipes, OfManyPiecesHaveFewerNumbersOfPasses) {
-  const auto all = of_depths({1e-8, 5}, 18);
-  EXPECT_LT(all.size(), 50'000U);
+  const auto all = of_depths({1e-8, 5}, 30);
+  EXPECT_LT(all.size(), 250'000U);
   EXPECT_GT(most_passes(all), 10);
 }
 
