@@ -97,10 +97,8 @@ Asked asked(const Site& s, const CutElement& e, FixedUse use, const char* does,
           }};
 }
 
-// Counted to one more than there may be.
 int times(double whole, double part) {
-  return static_cast<int>(
-      std::clamp(std::ceil(whole / part - 1e-9), 1.0, kMostPasses + 1.0));
+  return std::max(1, counted_passes(std::ceil(whole / part - 1e-9)));
 }
 
 // The given number of passes, or the one that follows from a given depth; nothing if the

@@ -17,17 +17,15 @@ namespace turnwright::planning {
 namespace {
 
 constexpr std::size_t kDrawn = 160;
-constexpr double kPassCounts = 200;  // beyond the fewest
+constexpr int kPassCounts = 200;  // beyond the fewest
 constexpr double kRounding = 1e-9;
 
 std::pair<int, int> pass_counts(const Milled& m, const catalogue::MillingCutter& c) {
   if (m.passes) return {*m.passes, *m.passes};
-  const int fewest = static_cast<int>(std::clamp(
-      std::ceil(m.depth_mm / c.ap_mm.upper - kSlack_mm), 1.0, kMostPasses + 1.0));
-  const double most =
-      std::min(std::floor(m.depth_mm / c.ap_mm.lower + kSlack_mm), 1.0 * kMostPasses);
-  return {fewest,
-          std::max(fewest, static_cast<int>(std::min(most, fewest + kPassCounts)))};
+  const int fewest =
+      std::max(1, counted_passes(std::ceil(m.depth_mm / c.ap_mm.upper - kSlack_mm)));
+  const int most = counted_passes(std::floor(m.depth_mm / c.ap_mm.lower + kSlack_mm));
+  return {fewest, std::max(fewest, std::min({most, kMostPasses, fewest + kPassCounts}))};
 }
 
 void refuse_milling(const MilledSite& s, const std::string& name, double value,

@@ -17,17 +17,13 @@ struct Counts {
   int low = 1, high = 0;
 };
 
-// A quotient as a number of passes, counted to one more than there may be.
-int count(double passes) {
-  return static_cast<int>(std::clamp(passes, 0.0, kMostPasses + 1.0));
-}
-
 // The numbers of passes whose depths, within the tool's range, can add up to `stock`.
 Counts counts(const std::optional<int>& given, double least_stock, double most_stock,
               const Tool& t) {
   if (given) return {*given, *given};
-  const int low = count(std::ceil(least_stock / t.ap_mm.upper - 1e-9));
-  const int high = count(std::floor(most_stock / catalogue::least_depth_mm(t) + 1e-9));
+  const int low = counted_passes(std::ceil(least_stock / t.ap_mm.upper - 1e-9));
+  const int high =
+      counted_passes(std::floor(most_stock / catalogue::least_depth_mm(t) + 1e-9));
   return {std::max(1, low), std::min(high, kMostPasses)};
 }
 
@@ -35,7 +31,7 @@ Counts counts(const std::optional<int>& given, double least_stock, double most_s
 // thinner.
 Counts counts_alone(const std::optional<int>& given, double stock, const Tool& t) {
   auto c = counts(given, stock, stock, t);
-  if (c.low <= kMostPasses || given) c.high = std::max(c.low, c.high);
+  if (c.low <= kMostPasses) c.high = std::max(c.low, c.high);
   return c;
 }
 

@@ -30,12 +30,8 @@ Workpiece::Workpiece(const planning::PreparedPart& part)
     stock.push_back({x, z});
   section.fill(stock);
   const auto& d = part.drawing;
-  for (std::size_t i = 0; i < d.outer.size(); ++i)
-    outer_left_mm_.push_back(part::left_z_mm(d, i));
-  for (std::size_t i = 0; i < d.inner.size(); ++i) {
-    const double left = part::inner_left_z_mm(d, i);
-    bores_.push_back({i, left, left + d.inner[i].length_mm});
-  }
+  outer_left_mm_ = part::left_ends_mm(d);
+  inner_left_mm_ = part::inner_left_ends_mm(d);
   for (const auto& s : part::inner_shoulders(d))
     if (part::has_tolerance(d, s.id)) faced_walls_.push_back({s.id, s.z_mm});
 }
@@ -66,11 +62,12 @@ std::string Workpiece::element_at(double z, bool inner) const {
   if (inner) {
     std::string nearest;
     double least = INFINITY;
-    for (const auto& b : bores_) {
-      const double away = std::max({b.left_mm - z, z - b.right_mm, 0.0});
+    for (std::size_t i = 0; i < d.inner.size(); ++i) {
+      const double a = inner_left_mm_[i], b = a + d.inner[i].length_mm;
+      const double away = std::max({a - z, z - b, 0.0});
       if (away >= least) continue;
       least = away;
-      nearest = d.inner[b.index].id;
+      nearest = d.inner[i].id;
     }
     return nearest;
   }

@@ -28,19 +28,14 @@ class Workpiece {
   std::optional<double> surface_mm(std::size_t column, bool inner) const;
 
  private:
-  struct Bore {
-    std::size_t index;
-    double left_mm, right_mm;
-  };
   struct Wall {
     std::string id;
     double z_mm;
   };
 
   const planning::PreparedPart& part_;
-  std::vector<double> outer_left_mm_;  // of each outer element
-  std::vector<Bore> bores_;
-  std::vector<Wall> faced_walls_;  // shoulders between bores
+  std::vector<double> outer_left_mm_, inner_left_mm_;  // of each element
+  std::vector<Wall> faced_walls_;                      // shoulders between bores
 };
 
 }  // namespace turnwright::review
