@@ -22,20 +22,75 @@ PowerLine through(double n1, double P1, double n2, double P2, double efficiency,
   return {efficiency * P1 / std::pow(n1, s), s, torque};
 }
 
+double power_kW(const CurvePoint& p) { return p.P_kW; }
+
 double torque_power_kW(const CurvePoint& p) {
   return units::shaft_power_kW(p.M_Nm, p.n_rpm);
 }
 
-// Whether the slope of either curve rises at point i.  At such a dip the lines around it
-// do not lie above the curve.  1e-9 allows for the rounding of points on one line.
-bool dip(const std::vector<CurvePoint>& c, std::size_t i) {
-  const auto slope = [&](auto value, std::size_t a, std::size_t b) {
-    return std::log(value(c[b]) / value(c[a])) / std::log(c[b].n_rpm / c[a].n_rpm);
-  };
-  const auto power = [](const CurvePoint& p) { return p.P_kW; };
-  return slope(power, i, i + 1) > slope(power, i - 1, i) + 1e-9 ||
-         slope(torque_power_kW, i, i + 1) > slope(torque_power_kW, i - 1, i) + 1e-9;
-}
+// Power and torque of a point may differ by 3 % by rounding, so those of neighbours make
+// dips of twice that.
+constexpr double kRoundedDip = 0.06;
+
+// A line through two points of a curve, on or above those between.
+struct Chord {
+  std::size_t from = 0, to = 0;
+  double above = 0;  // log of the greatest ratio of the line to a point between
+  bool deep() const { return above > kRoundedDip; }
+};
+
+// Least concave majorant of a curve P(n), log-log, from left to right.
+class Majorant {
+ public:
+  using Power = double (*)(const CurvePoint&);
+  Majorant(const std::vector<CurvePoint>& curve, Power power)
+      : c_(curve), power_(power) {}
+
+  // The chord by which point i would be added.  1e-9 allows for the rounding of points on
+  // one line.
+  Chord chord_to(std::size_t i) const {
+    Chord chord{i - 1, i};
+    for (auto before = chords_.rbegin(); before != chords_.rend(); ++before) {
+      if (slope(chord.from, i) <= slope(before->from, before->to) + 1e-9) break;
+      chord.from = before->from;
+    }
+    for (auto j = chord.from + 1; j < i; ++j) {
+      const double run = std::log(c_[j].n_rpm / c_[chord.from].n_rpm);
+      chord.above =
+          std::max(chord.above, slope(chord.from, i) * run - rise(chord.from, j));
+    }
+    return chord;
+  }
+
+  void add(const Chord& chord) {
+    while (!chords_.empty() && chords_.back().to > chord.from) chords_.pop_back();
+    chords_.push_back(chord);
+  }
+
+  // The lines of its chords, each lowered to lie on or under the points between.
+  std::vector<PowerLine> lines(double efficiency, bool torque) const {
+    std::vector<PowerLine> lines;
+    for (const auto& chord : chords_) {
+      const auto &a = c_[chord.from], &b = c_[chord.to];
+      auto line = through(a.n_rpm, power_(a), b.n_rpm, power_(b), efficiency, torque);
+      line.c *= std::exp(-chord.above);
+      lines.push_back(line);
+    }
+    return lines;
+  }
+
+ private:
+  double rise(std::size_t a, std::size_t b) const {
+    return std::log(power_(c_[b]) / power_(c_[a]));
+  }
+  double slope(std::size_t a, std::size_t b) const {
+    return rise(a, b) / std::log(c_[b].n_rpm / c_[a].n_rpm);
+  }
+
+  const std::vector<CurvePoint>& c_;
+  Power power_;
+  std::vector<Chord> chords_;
+};
 
 void add_unless_there(std::vector<PowerLine>& lines, const PowerLine& line) {
   const bool there = std::any_of(lines.begin(), lines.end(), [&](const PowerLine& l) {
@@ -45,6 +100,24 @@ void add_unless_there(std::vector<PowerLine>& lines, const PowerLine& line) {
   if (!there) lines.push_back(line);
 }
 
+// Adds the lines of the curve from a point on, up to the first deep dip of power or torque.
+// Returns the point where they end.
+std::size_t add_range(std::vector<PowerLine>& lines, const std::vector<CurvePoint>& c,
+                      std::size_t first, double efficiency) {
+  Majorant power(c, power_kW), torque(c, torque_power_kW);
+  auto last = first;
+  while (last + 1 < c.size()) {
+    const auto p = power.chord_to(last + 1), t = torque.chord_to(last + 1);
+    if (p.deep() || t.deep()) break;
+    power.add(p);
+    torque.add(t);
+    ++last;
+  }
+  for (const auto& line : power.lines(efficiency, false)) add_unless_there(lines, line);
+  for (const auto& line : torque.lines(efficiency, true)) add_unless_there(lines, line);
+  return last;
+}
+
 // Speed ranges of the main spindle or of a driven tool.
 template <class Drive>
 std::vector<SpeedRange> ranges_of(const Drive& drive) {
@@ -52,23 +125,17 @@ std::vector<SpeedRange> ranges_of(const Drive& drive) {
   const double eta = drive.efficiency;
   const double n_max = std::min(drive.n_max_rpm, c.back().n_rpm);
   std::vector<SpeedRange> ranges;
-  SpeedRange now{drive.n_min_rpm, n_max, {}};
   // Below the first point the motor gives that point's torque: P ~ n.
   const double M0 =
       std::min(c.front().M_Nm, c.front().P_kW / units::shaft_power_kW(1, c[0].n_rpm));
-  now.lines.push_back({eta * units::shaft_power_kW(M0, 1), 1.0, true});
-  for (std::size_t i = 0; i + 1 < c.size(); ++i) {
-    if (i > 0 && dip(c, i)) {
-      now.n_max_rpm = std::min(n_max, c[i].n_rpm);
-      if (now.n_max_rpm > now.n_min_rpm) ranges.push_back(now);
-      now = {std::max(drive.n_min_rpm, c[i].n_rpm), n_max, {}};
-    }
-    const auto &a = c[i], &b = c[i + 1];
-    add_unless_there(now.lines, through(a.n_rpm, a.P_kW, b.n_rpm, b.P_kW, eta, false));
-    add_unless_there(now.lines, through(a.n_rpm, torque_power_kW(a), b.n_rpm,
-                                        torque_power_kW(b), eta, true));
+  SpeedRange now{
+      drive.n_min_rpm, n_max, {{eta * units::shaft_power_kW(M0, 1), 1.0, true}}};
+  for (std::size_t first = 0, last = 0; first + 1 < c.size(); first = last) {
+    last = add_range(now.lines, c, first, eta);
+    now.n_max_rpm = last + 1 < c.size() ? std::min(n_max, c[last].n_rpm) : n_max;
+    if (now.n_max_rpm > now.n_min_rpm) ranges.push_back(now);
+    now = {std::max(drive.n_min_rpm, c[last].n_rpm), n_max, {}};
   }
-  if (now.n_max_rpm > now.n_min_rpm) ranges.push_back(now);
   return ranges;
 }
 

@@ -74,6 +74,26 @@ TEST(SpeedRanges, ADipCutsTheRange) {
               1e-9);
 }
 
+// A motor of 11 kW, read off a picture in 30 points and noted to 0.1 kW and 1 Nm: the
+// curve bends upwards at every third point, by rounding alone.
+TEST(SpeedRanges, ACurveRoundedPointByPointIsOneRange) {
+  auto m = lathe();
+  m.curve.clear();
+  for (int i = 0; i < 30; ++i) {
+    const double n = std::round(100 * std::pow(40, i / 29.0));
+    const double P = 11 * std::min({1.0, n / 700, std::pow(2500 / n, 0.6)});
+    m.curve.push_back({n, std::round(10 * P) / 10, std::round(P * 30000 / (kPi * n))});
+  }
+  const auto ranges = speed_ranges(m);
+  ASSERT_EQ(ranges.size(), 1u);
+  for (std::size_t i = 0; i < m.curve.size(); ++i) {
+    const auto& p = m.curve[i];
+    const double printed = 0.8 * std::min(p.P_kW, p.M_Nm * p.n_rpm * kPi / 30000);
+    EXPECT_LE(available_kW(ranges[0], p.n_rpm), printed * (1 + 1e-12)) << p.n_rpm;
+    EXPECT_GE(available_kW(ranges[0], p.n_rpm), printed * 0.94) << p.n_rpm;
+  }
+}
+
 TEST(PowerSpeed, KeepsTheLineAtEveryDiameterOfASweep) {
   const auto lines = speed_ranges(lathe())[0].lines;
   for (const auto& sweep :
