@@ -14,6 +14,7 @@
 #include "report/text/layout.hpp"
 #include "spread.hpp"
 #include "svg.hpp"
+#include "turnwright/base/cancelled.hpp"
 
 namespace turnwright::report {
 namespace {
@@ -59,14 +60,15 @@ std::vector<Point> corners_of(const std::vector<Point>& all) {
   return kept;
 }
 
-/// The area between two heights over a range of columns.
+/// The area between two heights over a range of columns, counted from the grid's column
+/// `first`.
 template <class Upper, class Lower>
-std::vector<Point> band(const Sheet& s, const Work& grid, std::size_t from,
-                        std::size_t to, Upper upper, Lower lower) {
+std::vector<Point> band(const Sheet& s, const Work& grid, std::size_t first,
+                        std::size_t from, std::size_t to, Upper upper, Lower lower) {
   std::vector<Point> outline, back;
   for (std::size_t i = from; i < to; ++i) {
-    outline.push_back(s.place(grid.z(i), upper(i)));
-    back.push_back(s.place(grid.z(i), lower(i)));
+    outline.push_back(s.place(grid.z(first + i), upper(i)));
+    back.push_back(s.place(grid.z(first + i), lower(i)));
   }
   outline = corners_of(outline);
   back = corners_of(back);
@@ -85,15 +87,15 @@ void each_range(std::size_t count, Holds holds, Draw draw) {
   }
 }
 
-void draw_work(Sheet& s, const Work& grid, const std::vector<Ring>& work,
-               const char* css_class) {
+void draw_work(Sheet& s, const Work& work, const char* css_class) {
+  const auto& rings = work.rings;
   each_range(
-      work.size(), [&](std::size_t i) { return !work[i].empty(); },
+      rings.size(), [&](std::size_t i) { return !rings[i].empty(); },
       [&](std::size_t from, std::size_t to) {
         s.svg.polygon(css_class, band(
-                                     s, grid, from, to,
-                                     [&](std::size_t i) { return work[i].outer_mm; },
-                                     [&](std::size_t i) { return work[i].inner_mm; }));
+                                     s, work, 0, from, to,
+                                     [&](std::size_t i) { return rings[i].outer_mm; },
+                                     [&](std::size_t i) { return rings[i].inner_mm; }));
       });
 }
 
@@ -103,7 +105,7 @@ void draw_removed(Sheet& s, const Work& grid, const CutPass& pass, bool deep) {
   const auto css_class = "off " + colour(s, pass.tool) + (deep ? " deep" : "");
   const auto paint = [&](auto holds, auto upper, auto lower) {
     each_range(a.size(), holds, [&](std::size_t from, std::size_t to) {
-      s.svg.polygon(css_class, band(s, grid, from, to, upper, lower));
+      s.svg.polygon(css_class, band(s, grid, pass.from, from, to, upper, lower));
     });
   };
   const auto outer_floor = [&](std::size_t i) {
@@ -190,8 +192,7 @@ double draw_legend(Sheet& s, const std::vector<CutPass>& all, double y) {
 
 std::string drawn(const PreparedPart& part, const planning::SetupPlan& setup,
                   const toolpath::SetupProgram& program) {
-  const auto all = passes(part, setup, program);
-  const auto grid = work_before(part, program.setup);
+  const auto [all, grid] = removal(part, setup, program);
   const double end = grid.z(grid.rings.size() - 1);
   const double most = part.drawing.stock.outer_mm / 2 + kBeside, least = -1;
   const double along = (kRight - kLeft) / (end - grid.from_z + 2 * kBeside);
@@ -213,9 +214,12 @@ std::string drawn(const PreparedPart& part, const planning::SetupPlan& setup,
   const Scale diameters{2 * least, 2 * most, s.x.from, s.x.to};
   frame(s.svg, s.z, diameters, "Z [mm]", tr("X, diameter [mm]"), 8, 5);
   s.svg.clip({kLeft, kTop}, {kRight, kTop + height});
-  draw_work(s, grid, all.empty() ? grid.rings : all.back().after, "body");
+  draw_work(s, grid, "body");
   bool deep = false;
-  for (const auto& pass : all) draw_removed(s, grid, pass, deep = !deep);
+  for (const auto& pass : all) {
+    leave_if_asked();
+    draw_removed(s, grid, pass, deep = !deep);
+  }
   draw_jaw(s);
   draw_rapids(s);
   for (const auto& pass : all) {

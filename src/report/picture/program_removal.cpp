@@ -6,6 +6,7 @@
 #include "contour.hpp"
 #include "planning/clamping/positions.hpp"
 #include "program_steps.hpp"
+#include "turnwright/base/cancelled.hpp"
 #include "turnwright/base/units.hpp"
 
 namespace turnwright::report {
@@ -84,6 +85,22 @@ double radius_at(const Runs& runs, double z) {
   return 0;
 }
 
+/// Keeps of the rings before and after a pass those between the first and the last that
+/// it changes: passes may be many thousands.
+void keep_changes(const std::vector<Ring>& before, const std::vector<Ring>& after,
+                  CutPass& pass) {
+  std::size_t from = 0, to = before.size();
+  while (from < to && before[from] == after[from]) ++from;
+  while (to > from && before[to - 1] == after[to - 1]) --to;
+  const auto changed = [&](const std::vector<Ring>& rings) {
+    return std::vector<Ring>(rings.begin() + static_cast<std::ptrdiff_t>(from),
+                             rings.begin() + static_cast<std::ptrdiff_t>(to));
+  };
+  pass.from = from;
+  pass.before = changed(before);
+  pass.after = changed(after);
+}
+
 Contour contour_before(const PreparedPart& part, std::size_t setup) {
   if (setup > 0) return contour_after(part, setup - 1);
   const auto& s = part.drawing.stock;
@@ -108,28 +125,36 @@ Work work_before(const PreparedPart& part, std::size_t setup) {
   return work;
 }
 
-std::vector<CutPass> passes(const PreparedPart& part, const planning::SetupPlan& setup,
-                            const toolpath::SetupProgram& program) {
-  std::vector<CutPass> all;
-  Work work = work_before(part, program.setup);
+Removal removal(const PreparedPart& part, const planning::SetupPlan& setup,
+                const toolpath::SetupProgram& program) {
+  Removal all{{}, work_before(part, program.setup)};
+  auto& rings = all.left.rings;
   toolpath::Point at{program.change_x_mm, program.change_z_mm};
   for (const auto& [step, operation] : planned_steps(setup, program)) {
     if (step->stop || step->milling) continue;
     const auto tool = cutter(part, *operation, listed(program, step->tool));
-    bool cutting = false;
+    std::vector<Ring> before;  // of a pass that has not ended
+    const auto end_pass = [&] {
+      if (!before.empty()) keep_changes(before, rings, all.passes.back());
+      before.clear();
+    };
     for (const auto& move : step->moves) {
-      const bool feeds = move.kind != toolpath::Move::Kind::rapid;
-      if (feeds && !cutting)
-        all.push_back({step->tool, operation->id, {at}, work.rings, {}});
-      if (feeds) {
-        take_off(work, tool, at, move);
+      leave_if_asked();
+      if (move.kind == toolpath::Move::Kind::rapid) {
+        end_pass();
+      } else {
+        if (before.empty()) {
+          before = rings;
+          all.passes.push_back({step->tool, operation->id, {at}, 0, {}, {}});
+        }
+        take_off(all.left, tool, at, move);
         const auto points = way(at, move);
-        all.back().way.insert(all.back().way.end(), points.begin(), points.end());
-        all.back().after = work.rings;
+        auto& whole = all.passes.back().way;
+        whole.insert(whole.end(), points.begin(), points.end());
       }
-      cutting = feeds;
       at = {move.x_mm, move.z_mm};
     }
+    end_pass();
   }
   return all;
 }

@@ -89,18 +89,22 @@ void take_off(Work& work, const Cutter& c, const toolpath::Point& from,
   const bool bore = c.shape == Shape::bore || c.shape == Shape::bore_blade;
   const bool blade = c.shape == Shape::blade || c.shape == Shape::bore_blade;
   const double sign = bore ? -1 : 1, reach = blade ? c.size_mm : INFINITY;
+  // Heights count downwards in a bore, and outside not beyond the axis.
+  const double deepest =
+      bore ? -std::max(from.h_mm, to.h_mm) : std::max(0.0, std::min(from.h_mm, to.h_mm));
   for (std::size_t i = 0; i < work.rings.size(); ++i) {
+    auto& ring = work.rings[i];
+    if ((bore ? -ring.inner_mm : ring.outer_mm) <= deepest) continue;
     const double z = work.z(i);
     const auto way = above({from, to}, z, reach);
     if (!way) continue;
     const double h = least([&](double s) {
       return sign * way->x(s) + height(c, std::clamp(z - way->z(s), 0.0, reach));
     });
-    auto& column = work.rings[i];
     if (bore)
-      column.inner_mm = std::max(column.inner_mm, -h);
+      ring.inner_mm = std::max(ring.inner_mm, -h);
     else
-      column.outer_mm = std::min(column.outer_mm, std::max(0.0, h));
+      ring.outer_mm = std::min(ring.outer_mm, std::max(0.0, h));
   }
 }
 

@@ -27,6 +27,7 @@ struct Cutter {
 struct Ring {
   double inner_mm = 0, outer_mm = 0;
   bool empty() const { return !(inner_mm < outer_mm); }
+  bool operator==(const Ring&) const = default;
 };
 
 /// The work as rings at equal distances, in the coordinates of a program.

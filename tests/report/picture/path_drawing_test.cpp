@@ -11,6 +11,7 @@
 #include "report/picture/contour.hpp"
 #include "report/picture/program_removal.hpp"
 #include "svg_check.hpp"
+#include "turnwright/base/cancelled.hpp"
 
 namespace turnwright::report::path_drawing_test {
 namespace {
@@ -32,8 +33,7 @@ double nominal(const Contour& contour, double z, bool inner) {
 // corners: 0.12 mm.
 double share_as_drawn(const Planned& p, const toolpath::SetupProgram& program) {
   const auto s = program.setup;
-  const auto all = passes(p.part, p.plan.setups[s], program);
-  const auto work = work_before(p.part, s);
+  const auto work = removal(p.part, p.plan.setups[s], program).left;
   const auto drawn = contour_after(p.part, s);
   const double sign = p.part.setups[s].hold == part::End::left ? 1 : -1;
   const double free_z = planning::free_z_mm(p.part, s);
@@ -45,7 +45,7 @@ double share_as_drawn(const Planned& p, const toolpath::SetupProgram& program) {
     if (Z < root || Z > 0 || z < drawn.outer.front().z0 || z > drawn.outer.back().z1)
       continue;
     ++count;
-    const auto& ring = all.back().after[i];
+    const auto& ring = work.rings[i];
     as_drawn += std::abs(ring.outer_mm - nominal(drawn, z, false)) < 0.12 &&
                 std::abs(ring.inner_mm - nominal(drawn, z, true)) < 0.12;
   }
@@ -68,16 +68,43 @@ TEST(PathDrawings, WhatThePassesLeaveIsThePartAsDrawn) {
 TEST(PathDrawings, APassNeverAddsMaterialAndFollowsThePassBefore) {
   const auto p = nc::test::planned_reference("coupling-shaft");
   for (const auto& program : nc::programs(p.part, p.plan).setups) {
-    const auto all = passes(p.part, p.plan.setups[program.setup], program);
+    const auto [all, left] = removal(p.part, p.plan.setups[program.setup], program);
     ASSERT_GT(all.size(), 2u);
-    for (std::size_t k = 0; k < all.size(); ++k)
-      for (std::size_t i = 0; i < all[k].before.size(); ++i) {
-        EXPECT_LE(all[k].after[i].outer_mm, all[k].before[i].outer_mm);
-        EXPECT_GE(all[k].after[i].inner_mm, all[k].before[i].inner_mm);
-        const auto& was = k > 0 ? all[k - 1].after[i] : all[k].before[i];
-        EXPECT_EQ(all[k].before[i].outer_mm, was.outer_mm);
+    auto rings = work_before(p.part, program.setup).rings;
+    for (const auto& pass : all)
+      for (std::size_t i = 0; i < pass.before.size(); ++i) {
+        EXPECT_LE(pass.after[i].outer_mm, pass.before[i].outer_mm);
+        EXPECT_GE(pass.after[i].inner_mm, pass.before[i].inner_mm);
+        auto& ring = rings[pass.from + i];
+        EXPECT_EQ(pass.before[i], ring);
+        ring = pass.after[i];
       }
+    EXPECT_EQ(rings, left.rings);
   }
+}
+
+// A pass over one diameter of many keeps no picture of the whole part, or thousands of them
+// would fill the memory.
+TEST(PathDrawings, APassKeepsTheRingsThatItChanges) {
+  const auto p = nc::test::planned_reference("coupling-shaft");
+  for (const auto& program : nc::programs(p.part, p.plan).setups)
+    for (const auto& pass :
+         removal(p.part, p.plan.setups[program.setup], program).passes) {
+      ASSERT_EQ(pass.before.size(), pass.after.size());
+      if (pass.before.empty()) continue;
+      EXPECT_NE(pass.before.front(), pass.after.front());
+      EXPECT_NE(pass.before.back(), pass.after.back());
+    }
+}
+
+TEST(PathDrawings, AreGivenUpIfNobodyWaits) {
+  const auto p = nc::test::planned_reference("coupling-shaft");
+  const auto programs = nc::programs(p.part, p.plan);
+  std::stop_source source;
+  source.request_stop();
+  const auto stop = source.get_token();
+  const Listening listening(stop);
+  EXPECT_THROW(path_drawings(p.part, p.plan, programs), Cancelled);
 }
 
 std::size_t occurrences(const std::string& text, const std::string& what) {
@@ -132,7 +159,7 @@ TEST(PathDrawings, TheAxesAreTheProgramsOwn) {
   std::smatch found;
   ASSERT_TRUE(std::regex_search(
       svg, found, std::regex("<polyline class=\"feed \\w+\" points=\"(\\S+),\\S+ ")));
-  const auto pass = passes(p.part, p.plan.setups[0], programs.setups[0]).front();
+  const auto pass = removal(p.part, p.plan.setups[0], programs.setups[0]).passes.front();
   EXPECT_NEAR(std::stod(found[1]), place("-100") + scale * (pass.way.front().z_mm + 100),
               0.05);
 }
