@@ -14,6 +14,9 @@ namespace turnwright::exchange {
 namespace notated {
 namespace {
 
+// Many times what a part document may have; each takes 500 times its own bytes.
+constexpr std::size_t kMostStatements = 5000;
+
 // A corner without the names of its elements: after how many outer elements it stands.
 struct Corner {
   std::size_t after = 0;
@@ -30,6 +33,10 @@ class Notation {
       mistakes_.throw_if_any();
     }
     const auto all = statements(text_);
+    if (all.size() > kMostStatements) {
+      mistakes_.add(all[kMostStatements], say("at most {} statements", kMostStatements));
+      mistakes_.throw_if_any();
+    }
     mistakes_.units = units_of(all, mistakes_);
     for (const Word s : all) read_statement(s);
     if (out_.outer.empty() && out_.inner.empty() && mistakes_.none())

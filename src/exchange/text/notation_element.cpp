@@ -77,6 +77,8 @@ class ElementWords {
     if (next_ == words_.size()) return;
     const auto shape = shape_word(words_[next_]);
     if (!shape || (out_.inner && *shape == Shape::as_stock)) return;
+    if (!out_.inner && *shape == Shape::hole)
+      mistakes_.add(words_[next_], tr("a hole in a bore, like bore hole d8 x 30"));
     e().shape = *shape;
     ++next_;
   }
