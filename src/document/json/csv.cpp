@@ -11,6 +11,7 @@
 #include "base/say.hpp"
 #include "pointer.hpp"
 #include "text_lines.hpp"
+#include "turnwright/base/cancelled.hpp"
 
 namespace turnwright::document {
 namespace {
@@ -104,16 +105,20 @@ std::optional<Header> read_header(const Reader& csv, const Line& line,
     report(csv, pointer_of(csv, line), got, std::move(expected), code);
     good = false;
   };
+  const auto listed = [&csv] {  // or the problem is only counted
+    return csv.problems().list.size() < Problems::kListed;
+  };
   std::vector<std::string> strangers;
   std::map<std::string_view, const CsvColumn*> by_name;
   for (const CsvColumn& column : columns) by_name.emplace(column.name, &column);
   std::set<std::string_view> seen;
   for (const std::string& name : *names) {
+    leave_if_asked();
     const auto found = by_name.find(name);
     const CsvColumn* const column = found == by_name.end() ? nullptr : found->second;
     if (!column && others == OtherColumns::refused)
-      wrong(say("column {}", shown(name)), say("columns of {}", list(columns)),
-            "unknown-key");
+      wrong(say("column {}", shown(name)),
+            listed() ? say("columns of {}", list(columns)) : "", "unknown-key");
     else if (column && !seen.insert(name).second)
       wrong(say("column {} again", shown(name)), tr("each column once"), "duplicate");
     out.columns.push_back(column);
@@ -205,6 +210,7 @@ void csv_cells(const Reader& csv, std::size_t most_rows,
   char separator = ',';
   std::size_t columns = 0, rows = 0;
   for (const Line& line : lines) {
+    leave_if_asked();
     const auto text = trimmed(line.text);
     const bool header = columns == 0;
     if (text.empty() || (header && text.starts_with('#'))) continue;
@@ -243,6 +249,7 @@ std::vector<CsvRow> csv_rows(const Reader& csv, const std::vector<CsvColumn>& co
   std::optional<Header> header;
   if (csv.broken() || !are_text(csv, lines, kText)) return rows;
   for (const Line& line : lines) {
+    leave_if_asked();
     const auto text = trimmed(line.text);
     if (text.empty() || (!header && text.starts_with('#'))) continue;
     if (!header) {

@@ -39,7 +39,8 @@ struct CsvRow {
 ///
 /// Reported: no table, a table of no rows or of more than `most_rows`, a wrong header,
 /// rows of another length than the header, quotes out of place, and, once, a control
-/// character (what is read is no text) or a number with another decimal mark.
+/// character (what is read is no text) or a number with another decimal mark.  Each column
+/// of the header and each line is a cancellation point, also of csv_cells.
 std::vector<CsvRow> csv_rows(const Reader& csv, const std::vector<CsvColumn>& columns,
                              OtherColumns others, std::size_t most_rows);
 

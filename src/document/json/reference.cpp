@@ -27,8 +27,9 @@ std::string checked_reference(const Reader& value, const std::vector<std::string
                               const std::string& what) {
   auto id = value.as_text();
   const bool found = std::find(known.begin(), known.end(), id) != known.end();
-  if (!id.empty() && !known.empty() && !found)
-    value.problem(expected_reference(id, known, what), "unknown-id");
+  if (id.empty() || known.empty() || found) return id;
+  const bool listed = value.problems().list.size() < Problems::kListed;
+  value.problem(listed ? expected_reference(id, known, what) : "", "unknown-id");
   return id;
 }
 

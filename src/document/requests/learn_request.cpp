@@ -14,6 +14,7 @@
 #include "document/json/reference.hpp"
 #include "planning/clamping/made_surfaces.hpp"
 #include "qif_results.hpp"
+#include "turnwright/base/cancelled.hpp"
 
 namespace turnwright::document::measured_parts {
 namespace {
@@ -107,6 +108,7 @@ void read_characteristics(Reader& r, Request& q) {
 // One row of one characteristic, whose id is known or to be read.
 void add_row(Reader r, const std::string* id, const std::vector<std::string>& known,
              Request& q, std::set<std::string>& machines) {
+  leave_if_asked();
   r = r.as_object();
   Row row{
       .part = read_name(r, "part"), .edge = read_name(r, "edge"), .pointer = r.pointer()};

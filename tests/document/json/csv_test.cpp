@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "turnwright/base/cancelled.hpp"
 #include "turnwright/base/errors.hpp"
 
 namespace turnwright::document::csv_test {
@@ -209,6 +210,19 @@ TEST(Csv, AHugeTableIsRefusedBeforeItIsKept) {
   // a header of a hundred thousand columns: a hundred problems and their number
   const std::string wide(100000, ',');
   EXPECT_LT(refused(wide + "x\n").size(), 20000u);
+}
+
+TEST(Csv, IsGivenUpIfNobodyWaits) {
+  std::stop_source source;
+  source.request_stop();
+  const auto stop = source.get_token();
+  const Listening listening(stop);
+  EXPECT_THROW(read(kPlain), Cancelled);
+  Problems problems{.document = "cuts"};
+  const json csv = kPlain;
+  EXPECT_THROW(
+      csv_cells(Reader(csv, problems, "/csv"), 5, [](const CsvCells&) { return true; }),
+      Cancelled);
 }
 
 TEST(Csv, AMissingMemberIsReportedByItsReaderAlone) {

@@ -7,6 +7,7 @@
 
 #include "../slips.hpp"
 #include "document/json/file.hpp"
+#include "turnwright/base/cancelled.hpp"
 
 namespace turnwright::document::learn_test {
 namespace {
@@ -209,6 +210,29 @@ TEST(Learn, RowsContradictEachOther) {
   request["rows"][0]["machine"] = "A";
   request["rows"][1]["machine"] = 2;
   EXPECT_NE(refused(request).find("parts of one machine"), std::string::npos);
+}
+
+// Each row may have to be compared with every characteristic.
+TEST(Learn, HearsThatNobodyWaitsWhileItReadsRows) {
+  std::stop_source source;
+  source.request_stop();
+  const auto stop = source.get_token();
+  const Listening listening(stop);
+  EXPECT_THROW(learn(worn(), catalogue()), Cancelled);
+}
+
+// A hundred problems are told; the others are counted, without a look for near names.
+TEST(Learn, UnknownCharacteristicsOfManyRowsAreCounted) {
+  json request = worn();
+  for (int n = 0; n < 200; ++n)
+    request["rows"].push_back(
+        {{"part", n + 100}, {"characteristic", "seet"}, {"value_mm", 30}});
+  const auto said = refused(request);
+  EXPECT_NE(said.find("/rows/119/characteristic: got \"seet\", expected a "
+                      "characteristic (did you mean \"seat\"?)"),
+            std::string::npos);
+  EXPECT_EQ(said.find("/rows/120"), std::string::npos);
+  EXPECT_NE(said.find("100 more problems"), std::string::npos);
 }
 
 TEST(Learn, ATableWithoutItsColumnsIsRefused) {
