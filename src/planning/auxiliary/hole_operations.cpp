@@ -314,11 +314,24 @@ void add_centre(Site& s, const char* face, double end_mm) {
                        s.p.material.name, end_mm));
 }
 
+/// The drill that is missing: of the hole's diameter, or with room behind it for a bar.
+struct MissingDrill {
+  double size_mm = 0;
+  bool exact = true;
+};
+MissingDrill missing_drill(const Hole& h) {
+  if (h.drilled_mm > 0) return {h.drilled_mm};
+  const double most_mm = h.least_mm - 2 * kLeftToBore_mm;
+  if (most_mm > 0) return {most_mm, false};
+  return {h.least_mm};  // no bar follows in so narrow a bore
+}
+
 void add_drilling(Site& s, part::End end) {
   const auto h = hole_from(s.p.drawing, end);
   if (h.first.empty()) return;
   const auto a = drilling(h, given_drilling(s.p, end));
   const auto f = fitted_drill(s.p, s.setup, a);
+  const auto missing = missing_drill(h);
   if (f.tool)
     s.out.before.push_back(
         drilled(s, a, f,
@@ -329,8 +342,8 @@ void add_drilling(Site& s, part::End end) {
         s, a,
         say("none of the drills is for {}, {}{:g} mm in diameter and long enough for "
             "{:g} mm{}",
-            s.p.material.name, h.drilled_mm > 0 ? "" : tr("at most "),
-            h.drilled_mm > 0 ? h.drilled_mm : h.least_mm - 2 * kLeftToBore_mm, h.depth_mm,
+            s.p.material.name, missing.exact ? "" : tr("at most "), missing.size_mm,
+            h.depth_mm,
             h.rest_mm < kNoWall_mm && !std::isfinite(h.behind_mm)
                 ? ""
                 : tr(", with a point, and a reamer or tap behind it, that stay clear of "

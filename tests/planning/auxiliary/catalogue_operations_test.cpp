@@ -681,6 +681,19 @@ std::string told_without(const json& d, catalogue::FixedUse use) {
   return told(p);
 }
 
+// Behind the drill of so narrow a bore no bar follows: its own diameter would have to be
+// drilled, not one less than nothing.
+TEST(Refused, TheDrillOfAVeryNarrowBoreHasItsDiameter) {
+  for (const auto& [D_mm, size] : {std::pair{0.5, "190 HB, 0.5 mm"},
+                                   {1.0, "190 HB, 1 mm"},
+                                   {1.8, "190 HB, at most 0.8 mm"}}) {
+    const auto all = told(bored(60, D_mm, 0, 0));
+    EXPECT_NE(all.find(std::string(size) + " in diameter and long enough for 60 mm"),
+              std::string::npos)
+        << all;
+  }
+}
+
 TEST(Refused, OperationsWithoutAToolSayWhatItWouldHaveToBe) {
   using enum catalogue::FixedUse;
   const auto spindle = reference_part("threaded-spindle");
