@@ -343,6 +343,62 @@ TEST(ReviewOfOwnPrograms, TellsThinPassesOverForgingsBehindTheFirst) {
   EXPECT_FALSE(told(first + "X55.\nG1 Z-20. F0.3\nG0 X60.\n"));
 }
 
+/// A collar whose edge the first setup chamfers, with the wall before it, while the collar is
+/// stock.
+nlohmann::json chamfered_collar(double chamfer_mm, double grip_mm = 50) {
+  return {
+      {"name", "collar"},
+      {"material", "C45"},
+      {"machine", "lathe-medium"},
+      {"stock",
+       {{"kind", "bar"},
+        {"diameter_mm", 60},
+        {"length_mm", 123},
+        {"left_allowance_mm", 1.5}}},
+      {"outer",
+       {{{"id", "seat"}, {"kind", "cylinder"}, {"length_mm", 40}, {"diameter_mm", 40}},
+        {{"id", "collar"}, {"kind", "cylinder"}, {"length_mm", 30}, {"diameter_mm", 54}},
+        {{"id", "end"}, {"kind", "cylinder"}, {"length_mm", 50}, {"diameter_mm", 44}}}},
+      {"edges", {{{"at", "collar|end"}, {"chamfer_mm", chamfer_mm}}}},
+      {"setups",
+       {{{"hold", "left"}, {"grip_mm", grip_mm}, {"clampings", {"chuck"}}},
+        {{"hold", "right"}, {"grip_mm", 40}, {"clampings", {"chuck"}}}}}};
+}
+
+// A facing tool takes the ring of stock on the edge, several times as deep as the rest of its
+// pass, from outside.
+TEST(ReviewOfOwnPrograms, KeepsTheLimitsWhereAChamferIsCutIntoStock) {
+  for (const double chamfer_mm : {2.0, 0.5}) {
+    const auto& p = nc::test::planned(chamfered_collar(chamfer_mm));
+    ASSERT_EQ(p.plan.status, planning::PlanStatus::ok) << chamfer_mm;
+    const auto r = reviewed(p, {.control = gcode::Control::fanuc});
+    double deepest = 0;
+    for (const auto& c : r.review.setups[0].cuts) {
+      if (c.on.starts_with("collar"))
+        for (const auto& pass : c.passes) deepest = std::max(deepest, pass.most_mm);
+      for (const auto& l : c.limits)
+        EXPECT_GT(l.margin, -0.01) << chamfer_mm << " " << c.on << ": " << l.name << " "
+                                   << l.value << " " << l.limit;
+    }
+    EXPECT_GT(deepest, chamfer_mm + 0.6) << chamfer_mm;
+    auto operations = reconstructed(p.part, r.review).operations;
+    const auto predicted = [&] {
+      return planning::predict(with_operations(p.part, operations, r.tools)).status;
+    };
+    EXPECT_EQ(predicted(), planning::PlanStatus::ok) << chamfer_mm;
+    // The tool that finishes the end would meet the whole height of the ring.
+    std::erase_if(operations, [](const auto& o) { return o.on[0] == "collar|end"; });
+    EXPECT_EQ(predicted(), planning::PlanStatus::infeasible) << chamfer_mm;
+  }
+}
+
+// Where the setup turns the collar too, no tool needs to face its shoulder.
+TEST(ReviewOfOwnPrograms, FacesNoShoulderForAChamferOfAnElementOfTheSameSetup) {
+  const auto& p = nc::test::planned(chamfered_collar(0.5, 30));
+  ASSERT_EQ(p.plan.status, planning::PlanStatus::ok);
+  for (const auto& o : p.plan.setups[0].operations) EXPECT_NE(o.on[0], "collar|end");
+}
+
 // A facing tool takes a little of the seat at an undercut: no second pass that finishes it.
 TEST(ReviewOfOwnPrograms, CountsNoFinishingPassesBesideAShoulder) {
   using nlohmann::json;

@@ -39,7 +39,7 @@ void add(const std::vector<std::string>& names, const std::string& operation,
 bool clamped(const Chain& chain, const Choice<double>& c, std::size_t i) {
   const auto& o = chain.operations[i];
   if (!o.tapered) return false;
-  const double cap = spindle_cap(o, forces(chain, c)[i], c.a);
+  const double cap = spindle_cap(o, limiting_forces(o, c.f[i], c.a), c.a);
   return c.v[i] >
          units::cutting_speed_m_min(cap, sweep(o, o.narrowest(), c.a).D_small_mm);
 }

@@ -34,10 +34,11 @@ T evaluate(const Chain& chain, const Choice<T>& c, const Sink& sink) {
   T sum{};
   for (std::size_t i = 0; i < chain.operations.size(); ++i) {
     const auto& o = chain.operations[i];
-    const T n_cap = spindle_cap(o, F[i], c.a);
-    depth_checks(o, c.f[i], c.a, F[i], tagged<T>(sink, i, false));
+    const auto G = o.ring ? limiting_forces(o, c.f[i], c.a) : F[i];
+    const T n_cap = spindle_cap(o, G, c.a);
+    depth_checks(o, c.f[i], c.a, G, tagged<T>(sink, i, false));
     chatter_checks(o, i, c.f[i], c.a, sink);
-    speed_checks(o, c.v[i], c.f[i], c.a, F[i], n_cap, tagged<T>(sink, i, true));
+    speed_checks(o, c.v[i], c.f[i], c.a, G, n_cap, tagged<T>(sink, i, true));
     const T life = cutting::tool_life_min(o.cut, c.v[i], c.f[i], o.depth_mm(c.a));
     const T cost =
         objective(o, chain.weights, duty(o, c.v[i], c.f[i], c.a, n_cap, life), c.a);
@@ -70,10 +71,11 @@ Reduced<T> evaluate_at_best_speed(const Chain& chain, Choice<T>& c,
   Reduced<T> sum;
   for (std::size_t i = 0; i < chain.operations.size(); ++i) {
     const auto& o = chain.operations[i];
-    const T n_cap = spindle_cap(o, F[i], c.a);
-    depth_checks(o, c.f[i], c.a, F[i], tagged<T>(sink, i, false));
+    const auto G = o.ring ? limiting_forces(o, c.f[i], c.a) : F[i];
+    const T n_cap = spindle_cap(o, G, c.a);
+    depth_checks(o, c.f[i], c.a, G, tagged<T>(sink, i, false));
     chatter_checks(o, i, c.f[i], c.a, sink);
-    const auto w = speed_window(o, c.f[i], c.a, F[i], n_cap);
+    const auto w = speed_window(o, c.f[i], c.a, G, n_cap);
     sink(i, Check::speed_window, true, w.lower, w.upper);
     const auto cost = [&](const BestSpeed<T>& best) {
       return objective(o, chain.weights, duty(o, best.v, c.f[i], c.a, n_cap, best.life),
@@ -81,12 +83,12 @@ Reduced<T> evaluate_at_best_speed(const Chain& chain, Choice<T>& c,
     };
     const auto best = best_speed(o, c.f[i], c.a, w);
     c.v[i] = best.v;
-    const Reduced<T> own{cost(best),
-                         weights[i].empty()
-                             ? cost(best)
-                             : cost(best_speed(o, c.f[i], c.a,
-                                               smooth_window(o, c.f[i], c.a, F[i], n_cap,
-                                                             weights[i], w)))};
+    const Reduced<T> own{
+        cost(best),
+        weights[i].empty()
+            ? cost(best)
+            : cost(best_speed(o, c.f[i], c.a,
+                              smooth_window(o, c.f[i], c.a, G, n_cap, weights[i], w)))};
     sum =
         i == 0 ? own : Reduced<T>{sum.objective + own.objective, sum.smooth + own.smooth};
   }

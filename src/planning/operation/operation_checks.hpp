@@ -7,7 +7,8 @@
 /// The limits of an operation as pairs of a value and the limit that it keeps.
 namespace turnwright::planning {
 
-/// Hands every check that does not depend on the speed to sink(check, value, limit).
+/// Hands every check that does not depend on the speed to sink(check, value, limit).  Here
+/// and below F is limiting_forces.
 template <class T, class Sink>
 void depth_checks(const OperationModel& o, const T& f, const T& a,
                   const cutting::Forces<T>& F, const Sink& sink) {
@@ -30,7 +31,7 @@ void depth_checks(const OperationModel& o, const T& f, const T& a,
   sink(Check::feed_force, F.Ff_N, T(o.feed_force_max_N));
   if (o.grip.force_N > 0 && o.tapered)
     sink(Check::grip, grip_needed(o, F, a), T(0.999 * o.grip.force_N));
-  const auto widest = sweep(o, o.widest(), a);
+  const auto widest = widest_sweep(o, a);
   for (const auto& l : o.range.lines)
     if (cutting::constant_torque(l))
       sink(l.torque ? Check::torque : Check::power,
@@ -98,7 +99,7 @@ void chatter_checks(const OperationModel& o, std::size_t operation, const T& f,
 template <class T, class Sink>
 void speed_checks(const OperationModel& o, const T& v, const T& f, const T& a,
                   const cutting::Forces<T>& F, const T& n_cap, const Sink& sink) {
-  const auto widest = sweep(o, o.widest(), a), narrowest = sweep(o, o.narrowest(), a);
+  const auto widest = widest_sweep(o, a), narrowest = narrowest_sweep(o, a);
   for (const auto& l : o.range.lines)
     if (!cutting::constant_torque(l))
       sink(l.torque ? Check::torque : Check::power,
@@ -106,7 +107,7 @@ void speed_checks(const OperationModel& o, const T& v, const T& f, const T& a,
            T(1.0));
   sink(Check::vc_min, T(o.vc_window.lower), v);
   sink(Check::vc_max, v, T(o.vc_window.upper));
-  const T life = cutting::tool_life_min(o.cut, v, f, o.depth_mm(a));
+  const T life = cutting::tool_life_min(o.cut, v, f, limiting_depth_mm(o, a));
   sink(Check::life_min, T(o.T_min.lower), life);
   sink(Check::life_max, life, T(o.T_min.upper));
   sink(Check::spindle_min, T(o.n_min_rpm),
@@ -125,8 +126,8 @@ template <class T, class Sink>
 void speed_limits(const OperationModel& o, const T& f, const T& a,
                   const cutting::Forces<T>& F, const T& n_cap, const Sink& sink) {
   using std::min;
-  const auto widest = sweep(o, o.widest(), a), narrowest = sweep(o, o.narrowest(), a);
-  const T ap = o.depth_mm(a);
+  const auto widest = widest_sweep(o, a), narrowest = narrowest_sweep(o, a);
+  const T ap = limiting_depth_mm(o, a);
   for (const auto& l : o.range.lines)
     if (!cutting::constant_torque(l))
       sink(l.s < 1, cutting::speed_at_power_m_min(l, F.Fc_N,

@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -43,6 +44,11 @@ struct PassModel {
   Affine path_mm;  ///< length in the cut
 };
 
+/// The ring of stock on the edge of a wall that an operation takes in one cut.
+struct EdgeRing {
+  double depth_mm = 0, D_mm = 0;  ///< D at the stock's surface
+};
+
 /// One operation of the chain.
 struct OperationModel {
   const catalogue::Tool* tool = nullptr;
@@ -75,6 +81,7 @@ struct OperationModel {
   bool tapered = false, reaches_axis = false, face = false, finishing = false;
   bool inner = false;     ///< a bore: material left makes it narrower
   double least_D_mm = 0;  ///< of a bore: the hole it starts from
+  std::optional<EdgeRing> ring;
 
   /// Sum over all passes.
   Affine left_sum_mm() const {
@@ -115,12 +122,43 @@ cutting::Sweep<T> sweep(const OperationModel& o, const PassModel& p, const T& a)
   return {p.path_mm(a), D(o.D_small_mm), D(o.D_large_mm), o.tapered, o.reaches_axis};
 }
 
+/// The largest depth and the diameters that count in the limits: of a pass, or of the ring
+/// that an operation takes with it.
+template <class T>
+T limiting_depth_mm(const OperationModel& o, const T& a) {
+  using std::max;
+  const T ap = o.depth_mm(a);
+  return o.ring ? max(ap, T(o.ring->depth_mm)) : ap;
+}
+template <class T>
+cutting::Sweep<T> widest_sweep(const OperationModel& o, const T& a) {
+  using std::max;
+  auto s = sweep(o, o.widest(), a);
+  if (o.ring) s.D_large_mm = max(s.D_large_mm, T(o.ring->D_mm));
+  return s;
+}
+template <class T>
+cutting::Sweep<T> narrowest_sweep(const OperationModel& o, const T& a) {
+  using std::min;
+  auto s = sweep(o, o.narrowest(), a);
+  if (o.ring) s.D_small_mm = min(s.D_small_mm, T(o.ring->D_mm));
+  return s;
+}
+
+/// Forces at that depth.
+template <class T>
+cutting::Forces<T> limiting_forces(const OperationModel& o, const T& f, const T& a) {
+  return cutting::forces_N(o.cut, limiting_depth_mm(o, a), f);
+}
+
 /// Force on the tool needed from the jaws [N], the largest of the passes.
 template <class T>
 T grip_needed(const OperationModel& o, const cutting::Forces<T>& F, const T& a) {
-  const T D = sweep(o, o.widest(), a).D_large_mm;
-  return cutting::grip_needed_N(o.grip, F.Fc_N, F.Ff_N,
-                                o.face || o.inner ? D : T(D + 2.0 * o.depth_mm(a)));
+  using std::max;
+  T D = sweep(o, o.widest(), a).D_large_mm;
+  if (!o.face && !o.inner) D = D + 2.0 * o.depth_mm(a);
+  if (o.ring) D = max(D, T(o.ring->D_mm));
+  return cutting::grip_needed_N(o.grip, F.Fc_N, F.Ff_N, D);
 }
 
 /// The spindle limit [1/min] of an operation: fixed, and where the grip ends.

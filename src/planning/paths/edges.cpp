@@ -33,9 +33,12 @@ double before_rounding_mm(double distance_mm) {
   return distance_mm * std::numbers::sqrt2 / 2;
 }
 
+double ring_depth_mm(const part::Chamfer& c, double corner_mm, double on_wall_mm) {
+  return c.axial_mm + beyond_edge_mm(c, true, corner_mm) + on_wall_mm;
+}
+
 bool takes_ring(const catalogue::Tool& tool, const part::Chamfer& c) {
-  return c.axial_mm + beyond_edge_mm(c, true, tool.re_mm) +
-             catalogue::least_depth_mm(tool) <=
+  return ring_depth_mm(c, tool.re_mm, catalogue::least_depth_mm(tool)) <=
          tool.ap_mm.upper;
 }
 

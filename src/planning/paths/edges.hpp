@@ -86,8 +86,10 @@ double beyond_edge_mm(const part::Chamfer& chamfer, bool in_stock, double corner
 /// distance, to the beginning of a rounded edge.
 double before_rounding_mm(double distance_mm);
 
-/// Whether a tool takes the ring of stock above such a chamfer, and what roughing leaves on
-/// the wall, in one cut.
+/// Depth of cut [mm] of the ring of stock above such a chamfer, which the tool takes in one
+/// cut, with what stands on the wall.
+double ring_depth_mm(const part::Chamfer& chamfer, double corner_mm, double on_wall_mm);
+/// Whether a tool takes it with its least depth on the wall.
 bool takes_ring(const catalogue::Tool& tool, const part::Chamfer& chamfer);
 
 }  // namespace turnwright::planning

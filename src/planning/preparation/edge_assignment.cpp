@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "base/say.hpp"
+#include "planning/clamping/made_surfaces.hpp"
 #include "planning/clamping/positions.hpp"
 #include "planning/paths/approach.hpp"
 #include "planning/paths/edges.hpp"
@@ -36,6 +37,27 @@ bool leaves_wall(const PreparedPart& p, const SetupWork& work, const Element& e,
   return std::ranges::all_of(shoulder_tools(p, front, e), [&](const catalogue::Tool* t) {
     return t->re_mm + kNoWall_mm <= wall_mm;
   });
+}
+
+// The shoulder between an element and the one in front if the setup cuts an edge of the
+// element there, which is stock until a later one.
+bool has_ring(const PreparedPart& p, const std::vector<SetupWork>& setups, std::size_t s,
+              const Element& e, const Element& front) {
+  if (p.drawing.outer[e.index].as_stock || !makes(setups[s], front) ||
+      !turned(chamfer_at(p.drawing, e, free_end(p, s))))
+    return false;
+  for (std::size_t k = 0; k <= s; ++k)
+    if (makes(setups[k], e)) return false;
+  return true;
+}
+
+bool faces_ring(const PreparedPart& p, const SetupWork& work, const Element& e,
+                const Element& front, End end) {
+  const auto tools = shoulder_tools(p, front, e);
+  return leaves_wall(p, work, e, front, end) &&
+         std::ranges::any_of(tools, [&](const catalogue::Tool* t) {
+           return takes_ring(*t, *chamfer_at(p.drawing, e, end));
+         });
 }
 
 // Whether a setup plunges the groove beside an element that is made by then, so that the
@@ -135,6 +157,23 @@ void leave_to_the_hand(PreparedPart& p) {
   };
   of(p.drawing.outer, false);
   of(p.drawing.inner, true);
+}
+
+void face_below_rings(const PreparedPart& p, std::vector<SetupWork>& setups) {
+  const auto& outer = p.drawing.outer;
+  for (std::size_t s = 0; s < setups.size(); ++s) {
+    const End end = free_end(p, s);
+    for (std::size_t k = 1; k < outer.size(); ++k) {
+      const Element left{false, k - 1}, right{false, k};
+      const auto &e = end == End::left ? right : left,
+                 &front = end == End::left ? left : right;
+      if (!has_ring(p, setups, s, e, front) || faces_between(setups[s], front, e) ||
+          made_with_undercut(p.drawing, k))
+        continue;
+      setups[s].shoulders.push_back(k);
+      if (!faces_ring(p, setups[s], e, front, end)) setups[s].shoulders.pop_back();
+    }
+  }
 }
 
 std::vector<Reason> assign_chamfers(const PreparedPart& p,

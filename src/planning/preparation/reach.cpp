@@ -6,6 +6,7 @@
 
 #include "planning/clamping/made_surfaces.hpp"
 #include "planning/clamping/positions.hpp"
+#include "planning/paths/edges.hpp"
 #include "planning/paths/pass_lengths.hpp"
 #include "planning/values/surface_request.hpp"
 
@@ -97,6 +98,14 @@ std::unordered_set<std::string> named_faces(const part::Drawing& d) {
   return all;
 }
 
+// Whether turning cuts the edge of a shoulder, with which plans may face it
+// (face_below_rings).
+bool has_edge(const part::Drawing& d, std::size_t k) {
+  const auto &left = d.outer[k - 1], &right = d.outer[k];
+  return turned(right.left_mm > left.right_mm ? right.left_chamfer : left.right_chamfer)
+      .has_value();
+}
+
 }  // namespace
 
 Ways::Ways(const PreparedPart& p) : left_mm(part::left_ends_mm(p.drawing)) {
@@ -140,8 +149,10 @@ void Ways::look_up_shoulders(const PreparedPart& p) {
   };
   for (std::size_t k = 1; k < d.outer.size(); ++k) {
     const auto id = shoulder_id(d, k);
-    if (!named.contains(id) || d.outer[k - 1].right_mm == d.outer[k].left_mm) continue;
-    if (made_with_undercut(d, k) && !(p.operations && asked_for(id))) continue;
+    if (d.outer[k - 1].right_mm == d.outer[k].left_mm) continue;
+    const bool asked = p.operations && asked_for(id);
+    if (!named.contains(id) && !(asked && has_edge(d, k))) continue;
+    if (made_with_undercut(d, k) && !asked) continue;
     shoulders.push_back({k, id});
   }
   for (const auto& s : part::inner_shoulders(d))

@@ -341,6 +341,7 @@ OperationModel MachinedSurface::operation(const Recipe& recipe, bool finishing,
   yield_along_feed(o);
   o.tapered = o.face || D_small_ < D_large_;
   o.reaches_axis = o.face && !(D_small_ > 0);
+  if (finisher) o.ring = ring(recipe, o);
   return o;
 }
 

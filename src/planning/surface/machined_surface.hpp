@@ -183,6 +183,10 @@ class MachinedSurface {
   std::optional<part::Undercut> undercut_of_last() const;
   OperationModel operation(const Recipe& recipe, bool finishing,
                            const Economy& economy) const;
+  // In surface_edges.cpp.
+  bool cuts_ring() const;
+  std::optional<EdgeRing> ring(const Recipe& recipe,
+                               const OperationModel& operation) const;
   // In surface_paths.cpp.
   struct Lengths {  // of a pass in the cut, of a pass at feed; rapids of all
     double path_mm = 0, fed_mm = 0, rapid_min = 0;

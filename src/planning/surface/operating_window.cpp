@@ -49,9 +49,7 @@ struct Slice {
     c.f[i] = f;
     return c;
   }
-  cutting::Forces<double> force(double f) const {
-    return cutting::forces_N(o().cut, o().depth_mm(at.a), f);
-  }
+  cutting::Forces<double> force(double f) const { return limiting_forces(o(), f, at.a); }
   double cost(double v, double f, double n_cap) const {
     const double life = cutting::tool_life_min(o().cut, v, f, o().depth_mm(at.a));
     return objective(o(), chain.weights, duty(o(), v, f, at.a, n_cap, life), at.a);
@@ -63,15 +61,14 @@ struct Slice {
   // The first limit of the feed alone that is not kept.
   std::optional<Row> broken(double f) const {
     const auto c = with(f);
-    const auto F = forces(chain, c);
     std::optional<Row> row;
     const auto sink = [&](std::size_t k, Check check, bool, double v, double limit) {
       if (!row && !(v <= limit + kLimitKept * std::abs(limit)))
         row = Row{k, check, false};
     };
-    depth_checks(o(), f, at.a, F[i], tagged<double>(sink, i, false));
+    depth_checks(o(), f, at.a, force(f), tagged<double>(sink, i, false));
     chatter_checks(o(), i, f, at.a, sink);
-    if (!row) tolerance_checks(chain, c, F, sink);
+    if (!row) tolerance_checks(chain, c, forces(chain, c), sink);
     return row;
   }
 

@@ -19,19 +19,23 @@ struct Chosen {
   const Chain& chain;
   const Choice<double>& c;
   std::array<cutting::Forces<double>, 2> F;
+  double cap_rpm(std::size_t i) const {
+    const auto& o = chain.operations[i];
+    return spindle_cap(o, limiting_forces(o, c.f[i], c.a), c.a);
+  }
 };
 
 cutting::Duty<double> duty_of(const Chosen& x, std::size_t i) {
   const auto& o = x.chain.operations[i];
   const double life =
       cutting::tool_life_min(o.cut, x.c.v[i], x.c.f[i], o.depth_mm(x.c.a));
-  return duty(o, x.c.v[i], x.c.f[i], x.c.a, spindle_cap(o, x.F[i], x.c.a), life);
+  return duty(o, x.c.v[i], x.c.f[i], x.c.a, x.cap_rpm(i), life);
 }
 
 std::vector<Pass> passes(const Chosen& x, std::size_t i) {
   const auto& o = x.chain.operations[i];
   const double v = x.c.v[i], f = x.c.f[i], ap = o.depth_mm(x.c.a);
-  const double n_cap = spindle_cap(o, x.F[i], x.c.a);
+  const double n_cap = x.cap_rpm(i);
   const double life = cutting::tool_life_min(o.cut, v, f, ap);
   std::vector<Pass> all;
   for (const auto& p : o.passes) {
@@ -143,10 +147,10 @@ ConstraintValue constraint(const PreparedPart& plan, const Chain& chain,
   c.limit = c.at_most ? r.limit : r.value;
   if (r.row.check == Check::power || r.row.check == Check::torque) {  // from their share
     const auto& o = chain.operations[r.row.operation];
-    const double Fc = forces(chain, choice)[r.row.operation].Fc_N;
+    const double Fc = limiting_forces(o, choice.f[r.row.operation], choice.a).Fc_N;
     c.value = r.row.check == Check::power
                   ? units::power_kW(Fc, choice.v[r.row.operation])
-                  : units::torque_Nm(Fc, sweep(o, o.widest(), choice.a).D_large_mm);
+                  : units::torque_Nm(Fc, widest_sweep(o, choice.a).D_large_mm);
     c.limit = c.value / (r.value / r.limit);
   }
   c.margin = -violation(r);

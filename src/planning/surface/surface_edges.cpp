@@ -21,12 +21,18 @@ std::optional<part::Undercut> MachinedSurface::undercut_of_last() const {
                                                : around_.faced_undercut;
 }
 
+// Whether it cuts the edge of the wall behind while that is stock.  Where a facing operation
+// makes the wall, that one does.
+bool MachinedSurface::cuts_ring() const {
+  const auto& s = around_;
+  return s.wall_in_stock && s.wall_chamfer.axial_mm > 0 && !(s.shoulder_mm > 0);
+}
+
 bool MachinedSurface::makes_edges(const catalogue::Tool& tool) const {
   const auto& s = around_;
   if (s.fillet_mm && tool.re_mm > *s.fillet_mm) return false;
   if (s.below_rounding_mm && tool.re_mm > *s.below_rounding_mm) return false;
-  const bool into_stock = s.wall_in_stock && s.wall_chamfer.axial_mm > 0;
-  if (into_stock && !takes_ring(tool, s.wall_chamfer)) return false;
+  if (cuts_ring() && !takes_ring(tool, s.wall_chamfer)) return false;
   const auto u = undercut_of_last();
   return !u ||
          (tool.re_mm <= u->radius_mm &&
@@ -34,6 +40,21 @@ bool MachinedSurface::makes_edges(const catalogue::Tool& tool) const {
                                       units::kPi / 2 + part::leans_rad(*u) - kSame_rad) &&
           units::rad_from_deg(tool.minor_kapr_deg) >= part::falls_rad(*u) - kSame_rad &&
           tool.ap_mm.upper > u->depth_mm);
+}
+
+// Outwards along the edge the major edge meets the ring in its whole height.
+std::optional<EdgeRing> MachinedSurface::ring(const Recipe& recipe,
+                                              const OperationModel& o) const {
+  const auto& s = around_;
+  const auto& c = s.wall_chamfer;
+  if (!cuts_ring()) return {};
+  if (is_face())
+    return EdgeRing{ring_depth_mm(c, o.tool->re_mm, o.ap.lower), 2 * top_mm_};
+  const double on_wall_mm = recipe.finish ? catalogue::least_depth_mm(*recipe.finish) : 0;
+  const double across = c.axial_mm / std::hypot(c.axial_mm, c.radial_mm);
+  return EdgeRing{std::max(ring_depth_mm(c, o.tool->re_mm, on_wall_mm),
+                           (s.wall_h - s.wall_edge_h) * across),
+                  2 * std::abs(s.wall_h)};
 }
 
 std::string MachinedSurface::edges_asked() const {
@@ -55,7 +76,7 @@ std::string MachinedSurface::edges_asked() const {
                                90 + units::deg_from_rad(part::leans_rad(*u)))
                          : std::string(),
         units::deg_from_rad(part::falls_rad(*u)), u->depth_mm));
-  if (s.wall_in_stock && s.wall_chamfer.axial_mm > 0)
+  if (cuts_ring())
     add(say("a depth of cut for the {} of {:g} mm into stock",
             s.wall_chamfer.round ? tr("rounded edge") : tr("chamfer"),
             s.wall_chamfer.axial_mm));
