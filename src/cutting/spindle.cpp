@@ -28,9 +28,8 @@ double torque_power_kW(const CurvePoint& p) {
   return units::shaft_power_kW(p.M_Nm, p.n_rpm);
 }
 
-// Power and torque of a point may differ by 3 % by rounding, so those of neighbours make
-// dips of twice that.
-constexpr double kRoundedDip = 0.06;
+// Makers round to about 1 %, and power and torque of a point may differ by 3 %.
+constexpr double kRoundedDip = 0.03;
 
 // A line through two points of a curve, on or above those between.
 struct Chord {
@@ -118,16 +117,29 @@ std::size_t add_range(std::vector<PowerLine>& lines, const std::vector<CurvePoin
   return last;
 }
 
+// The points of a curve on and around the speeds of a spindle.
+std::vector<CurvePoint> around(const std::vector<CurvePoint>& c, double n_min_rpm,
+                               double n_max_rpm) {
+  std::vector<CurvePoint> all;
+  for (std::size_t i = 0; i < c.size(); ++i) {
+    const bool below = i + 1 < c.size() && c[i + 1].n_rpm <= n_min_rpm;
+    const bool above = i > 0 && c[i - 1].n_rpm >= n_max_rpm;
+    if (!below && !above) all.push_back(c[i]);
+  }
+  return all;
+}
+
 // Speed ranges of the main spindle or of a driven tool.
 template <class Drive>
 std::vector<SpeedRange> ranges_of(const Drive& drive) {
-  const auto& c = drive.curve;
   const double eta = drive.efficiency;
-  const double n_max = std::min(drive.n_max_rpm, c.back().n_rpm);
+  const double n_max = std::min(drive.n_max_rpm, drive.curve.back().n_rpm);
+  const auto c = around(drive.curve, drive.n_min_rpm, n_max);
   std::vector<SpeedRange> ranges;
   // Below the first point the motor gives that point's torque: P ~ n.
+  const auto& least = drive.curve.front();
   const double M0 =
-      std::min(c.front().M_Nm, c.front().P_kW / units::shaft_power_kW(1, c[0].n_rpm));
+      std::min(least.M_Nm, least.P_kW / units::shaft_power_kW(1, least.n_rpm));
   SpeedRange now{
       drive.n_min_rpm, n_max, {{eta * units::shaft_power_kW(M0, 1), 1.0, true}}};
   for (std::size_t first = 0, last = 0; first + 1 < c.size(); first = last) {

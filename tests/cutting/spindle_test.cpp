@@ -94,6 +94,35 @@ TEST(SpeedRanges, ACurveRoundedPointByPointIsOneRange) {
   }
 }
 
+// A dip of the plateau from 1000 to 3000 1/min, a little below and above what rounding makes.
+TEST(SpeedRanges, ASmallDipLowersThePieceAndADeepOneCutsIt) {
+  for (const double dip : {0.025, 0.035}) {
+    auto m = lathe();
+    auto low = m.curve[1];
+    low.n_rpm = 2000;
+    low.P_kW *= 1 - dip;
+    low.M_Nm *= (1 - dip) / 2;
+    m.curve.insert(m.curve.begin() + 2, low);
+    const auto ranges = speed_ranges(m);
+    ASSERT_EQ(ranges.size(), dip < 0.03 ? 1u : 2u);
+    EXPECT_NEAR(available_kW(ranges[0], 2000), 0.8 * low.P_kW, 1e-9);
+    EXPECT_NEAR(available_kW(ranges[0], 1000),
+                0.8 * m.curve[1].P_kW * (dip < 0.03 ? 1 - dip : 1), 1e-9);
+  }
+}
+
+TEST(SpeedRanges, PointsBeyondTheSpindleLimitNothing) {
+  auto m = lathe();
+  m.n_max_rpm = 2500;
+  m.curve[3].P_kW *= 0.1;
+  m.curve.push_back({6000, m.curve[2].P_kW, m.curve[2].M_Nm / 2});
+  const auto ranges = speed_ranges(m);
+  ASSERT_EQ(ranges.size(), 1u);
+  EXPECT_EQ(ranges[0].n_max_rpm, 2500);
+  for (const double n : {1500, 2500})
+    EXPECT_NEAR(available_kW(ranges[0], n), 0.8 * m.curve[1].P_kW, 1e-9);
+}
+
 TEST(PowerSpeed, KeepsTheLineAtEveryDiameterOfASweep) {
   const auto lines = speed_ranges(lathe())[0].lines;
   for (const auto& sweep :

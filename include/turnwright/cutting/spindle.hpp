@@ -25,7 +25,7 @@ struct SpeedRange {
 /// Power and torque curves times the efficiency, interpolated log-log between their
 /// points, with constant torque below the first point.  A log-concave curve is the
 /// minimum of the lines through its segments; a curve with dips is cut into ranges in
-/// which that holds.  A dip of at most 6 %, as rounding and digitising make, cuts no range:
+/// which that holds.  A dip of at most 3 %, as rounding and digitising make, cuts no range:
 /// the line over it is lowered onto it, so that the lines lie nowhere above the curve.
 std::vector<SpeedRange> speed_ranges(const catalogue::Lathe& machine);
 std::vector<SpeedRange> speed_ranges(const catalogue::DrivenTools& spindle);

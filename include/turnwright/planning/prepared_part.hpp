@@ -18,11 +18,10 @@ namespace turnwright::planning {
 /// The surfaces that a setup cuts; elements in the tool's order, from the free end
 /// inwards.
 struct SetupWork {
-  std::vector<std::size_t> elements;  ///< indices into drawing.outer
-  bool end_face = false;              ///< the face of the free end
-  std::vector<std::size_t>
-      shoulders;  ///< element k: the face "k-1|k", where the drawing requires it
-  std::vector<std::size_t> bores;  ///< indices into drawing.inner
+  std::vector<std::size_t> elements;   ///< indices into drawing.outer
+  bool end_face = false;               ///< the face of the free end
+  std::vector<std::size_t> shoulders;  ///< element k: the face "k-1|k", where it is faced
+  std::vector<std::size_t> bores;      ///< indices into drawing.inner
   /// Of these, where a tolerance is on the shoulder at the inner end: it is faced.
   std::vector<std::size_t> inner_shoulders;
   /// Chamfers at the free end of elements that earlier setups have made, which no tool cuts
