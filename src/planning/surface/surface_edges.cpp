@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "base/say.hpp"
@@ -5,6 +6,7 @@
 #include "planning/clamping/centre_clearance.hpp"
 #include "planning/paths/approach.hpp"
 #include "planning/paths/edges.hpp"
+#include "planning/preparation/edge_assignment.hpp"
 #include "turnwright/base/units.hpp"
 
 namespace turnwright::planning {
@@ -32,8 +34,13 @@ bool MachinedSurface::makes_edges(const catalogue::Tool& tool) const {
   const auto& s = around_;
   if (s.fillet_mm && tool.re_mm > *s.fillet_mm) return false;
   if (s.below_rounding_mm && tool.re_mm > *s.below_rounding_mm) return false;
-  if (cuts_ring() && ring_mm(tool, catalogue::least_depth_mm(tool)) > tool.ap_mm.upper)
-    return false;
+  if (cuts_ring()) {
+    const double on_wall_mm = catalogue::least_depth_mm(tool);
+    const double depth_mm = ring_may_be_faced()
+                                ? ring_mm(tool, on_wall_mm)
+                                : ring_depth_mm(s.wall_chamfer, tool.re_mm, on_wall_mm);
+    if (depth_mm > tool.ap_mm.upper) return false;
+  }
   const auto u = undercut_of_last();
   return !u ||
          (tool.re_mm <= u->radius_mm &&
@@ -41,6 +48,17 @@ bool MachinedSurface::makes_edges(const catalogue::Tool& tool) const {
                                       units::kPi / 2 + part::leans_rad(*u) - kSame_rad) &&
           units::rad_from_deg(tool.minor_kapr_deg) >= part::falls_rad(*u) - kSame_rad &&
           tool.ap_mm.upper > u->depth_mm);
+}
+
+// Whether a plan may face that wall instead.  Where none may, the short cut into the ring's
+// height is allowed beyond the largest depth.
+bool MachinedSurface::ring_may_be_faced() const {
+  if (kind_ != Kind::element || plan_->operations) return false;
+  const auto faced = with_rings_faced(*plan_);
+  if (!faced) return false;
+  const auto& shoulders = (*faced)[setup_].shoulders;
+  const std::size_t k = around_.mirrored ? index_ + 1 : index_;
+  return std::ranges::find(shoulders, k) != shoulders.end();
 }
 
 // Depth of the ring of stock there with what stands on the wall.  Outwards along the edge
