@@ -137,18 +137,6 @@ Shortfall shortfall(const Attempt& a) {
 
 }  // namespace
 
-double objective(const PreparedPart& p, const ProcessPlan& plan) {
-  switch (p.objective) {
-    case Objective::time:
-      return plan.time_per_part_min;
-    case Objective::profit:
-      return -plan.profit_per_min.value_or(0);
-    case Objective::cost:
-      break;
-  }
-  return plan.cost_per_part;
-}
-
 ProcessPlan certified_plan(const PreparedPart& p, const std::vector<WhatIf>& what_if) {
   return nearest_plan(p, what_if).plan;
 }

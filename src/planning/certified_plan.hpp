@@ -32,7 +32,4 @@ struct NearestPlan {
 NearestPlan nearest_plan(const PreparedPart& part,
                          const std::vector<WhatIf>& what_if = {});
 
-/// What a part's plan is to be good at; less is better.
-double objective(const PreparedPart& part, const ProcessPlan& plan);
-
 }  // namespace turnwright::planning

@@ -19,6 +19,19 @@
 namespace turnwright::planning {
 namespace {
 
+// Smaller is better.
+double objective(const PreparedPart& p, const ProcessPlan& plan) {
+  switch (p.objective) {
+    case Objective::time:
+      return plan.time_per_part_min;
+    case Objective::profit:
+      return -plan.profit_per_min.value_or(0);
+    case Objective::cost:
+      break;
+  }
+  return plan.cost_per_part;
+}
+
 Alternative alternative(const std::string& name, const ProcessPlan& plan) {
   const bool feasible = plan.status == PlanStatus::ok;
   Alternative a{.name = name, .feasible = feasible};

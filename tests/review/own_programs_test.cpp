@@ -392,18 +392,6 @@ TEST(ReviewOfOwnPrograms, KeepsTheLimitsWhereAChamferIsCutIntoStock) {
   }
 }
 
-// The tool that finishes in front takes a ring that is low enough, which is cheaper.
-TEST(ReviewOfOwnPrograms, LeavesALowRingToTheToolThatFinishes) {
-  auto d = chamfered_collar(0.3);
-  d["stock"]["diameter_mm"] = 55;
-  const auto& p = nc::test::planned(d);
-  ASSERT_EQ(p.plan.status, planning::PlanStatus::ok);
-  for (const auto& o : p.plan.setups[0].operations) EXPECT_NE(o.on[0], "collar|end");
-  for (const auto& s : reviewed(p, {.control = gcode::Control::fanuc}).review.setups)
-    for (const auto& c : s.cuts)
-      for (const auto& l : c.limits) EXPECT_GT(l.margin, -0.01) << c.on << ": " << l.name;
-}
-
 // Where the setup turns the collar too, no tool needs to face its shoulder.
 TEST(ReviewOfOwnPrograms, FacesNoShoulderForAChamferOfAnElementOfTheSameSetup) {
   const auto& p = nc::test::planned(chamfered_collar(0.5, 30));

@@ -12,8 +12,8 @@ PreparedPart prepare(PlanRequest request);
 
 /// Prepares a request that differs from that of `like` only in numbers that move no
 /// surface: limits of tolerances, roughness, machine, tools and operations, prices, the
-/// objective. The machine's shares, the ways of milling and which edges in stock are faced,
-/// which take long to compute, are copied from `like`.
+/// objective. The machine's shares and the ways of milling, which take long to compute,
+/// are copied from `like`.
 PreparedPart prepare(PlanRequest request, const PreparedPart& like);
 
 /// Surfaces, chamfers, undercuts and centre holes that no setup of a request makes, in

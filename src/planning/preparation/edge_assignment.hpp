@@ -1,5 +1,4 @@
 #pragma once
-#include <optional>
 #include <vector>
 
 #include "reach.hpp"
@@ -7,6 +6,13 @@
 
 /// Which setup cuts which chamfers and undercuts of the drawing.
 namespace turnwright::planning {
+
+/// Has outer shoulders faced whose edges are chamfered while the element behind is stock that
+/// a later setup turns: the facing tool takes the ring above the chamfer from outside, at the
+/// depth of the chamfer.  One that finishes the element in front comes from inside, and its
+/// major edge would meet the ring in its whole height.  Shoulders stay as they are where no
+/// facing tool takes the ring or has enough wall.
+void face_below_rings(const PreparedPart& plan, std::vector<SetupWork>& setups);
 
 /// Gives the chamfers that no tool cuts on its way to a setup with a pass of their own;
 /// returns a reason for each that no setup can cut.  A tool cuts a chamfer on its way in
@@ -22,12 +28,6 @@ std::vector<Reason> assign_chamfers(const PreparedPart& plan,
 /// Takes the chamfers out of the drawing that the title block asks for of all edges alike and
 /// that no setup cuts on its way.
 void leave_to_the_hand(PreparedPart& part);
-
-/// The work with outer shoulders faced whose edges are chamfered while the element behind is
-/// stock that a later setup turns; nothing if there are none.  A facing tool takes the ring
-/// above the chamfer from outside, at the depth of the chamfer; one that finishes the element
-/// in front comes from inside, and its major edge meets the ring in its whole height.
-std::optional<std::vector<SetupWork>> with_rings_faced(const PreparedPart& plan);
 
 /// A reason for each undercut that no setup cuts: the one that makes its element comes
 /// from the shoulder's side, or faces that shoulder by itself.

@@ -8,7 +8,6 @@
 #include "planning/auxiliary/milled_ways.hpp"
 #include "planning/budget/jaw_squeeze.hpp"
 #include "planning/budget/machine_share.hpp"
-#include "planning/certified_plan.hpp"
 #include "stick_out.hpp"
 #include "turnwright/planning/rules.hpp"
 
@@ -52,23 +51,6 @@ PreparedPart assigned(PlanRequest request) {
   return p;
 }
 
-// Whether edges that stand in stock (with_rings_faced) are left to the tools that finish, or
-// faced: the better plan decides.
-void choose_facing(PreparedPart& p) {
-  if (p.operations || !p.work.unreachable.empty()) return;
-  if (p.objective == Objective::profit && !p.price) return;
-  auto setups = with_rings_faced(p);
-  if (!setups) return;
-  auto faced = p;
-  faced.work.setups = std::move(*setups);
-  const auto a = nearest_plan(p), b = nearest_plan(faced);
-  const bool plans = b.plan.status == PlanStatus::ok;
-  if (a.plan.status != PlanStatus::ok
-          ? plans || b.shortfall < a.shortfall
-          : plans && objective(faced, b.plan) < objective(p, a.plan))
-    p = std::move(faced);
-}
-
 }  // namespace
 
 PreparedPart prepare(PlanRequest request) {
@@ -79,7 +61,6 @@ PreparedPart prepare(PlanRequest request) {
     places[i].ways = i > 0 && places[i - 1].entry == places[i].entry
                          ? places[i - 1].ways
                          : milled_ways(p, places[i]);
-  choose_facing(p);
   return p;
 }
 
@@ -88,8 +69,6 @@ PreparedPart prepare(PlanRequest request, const PreparedPart& like) {
   p.machine_takes = like.machine_takes;
   for (std::size_t i = 0; i < p.milled_places.size(); ++i)
     p.milled_places[i].ways = like.milled_places.at(i).ways;
-  const auto faced = p.operations ? std::nullopt : with_rings_faced(p);
-  if (faced && like.work.setups == *faced) p.work.setups = *faced;
   return p;
 }
 
