@@ -31,7 +31,7 @@ void depth_checks(const OperationModel& o, const T& f, const T& a,
   sink(Check::feed_force, F.Ff_N, T(o.feed_force_max_N));
   if (o.grip.force_N > 0 && o.tapered)
     sink(Check::grip, grip_needed(o, F, a), T(0.999 * o.grip.force_N));
-  const auto widest = widest_sweep(o, a);
+  const auto widest = limiting_sweep(o, o.widest(), a);
   for (const auto& l : o.range.lines)
     if (cutting::constant_torque(l))
       sink(l.torque ? Check::torque : Check::power,
@@ -99,7 +99,8 @@ void chatter_checks(const OperationModel& o, std::size_t operation, const T& f,
 template <class T, class Sink>
 void speed_checks(const OperationModel& o, const T& v, const T& f, const T& a,
                   const cutting::Forces<T>& F, const T& n_cap, const Sink& sink) {
-  const auto widest = widest_sweep(o, a), narrowest = narrowest_sweep(o, a);
+  const auto widest = limiting_sweep(o, o.widest(), a),
+             narrowest = limiting_sweep(o, o.narrowest(), a);
   for (const auto& l : o.range.lines)
     if (!cutting::constant_torque(l))
       sink(l.torque ? Check::torque : Check::power,
@@ -126,7 +127,8 @@ template <class T, class Sink>
 void speed_limits(const OperationModel& o, const T& f, const T& a,
                   const cutting::Forces<T>& F, const T& n_cap, const Sink& sink) {
   using std::min;
-  const auto widest = widest_sweep(o, a), narrowest = narrowest_sweep(o, a);
+  const auto widest = limiting_sweep(o, o.widest(), a),
+             narrowest = limiting_sweep(o, o.narrowest(), a);
   const T ap = limiting_depth_mm(o, a);
   for (const auto& l : o.range.lines)
     if (!cutting::constant_torque(l))

@@ -131,17 +131,15 @@ T limiting_depth_mm(const OperationModel& o, const T& a) {
   return o.ring ? max(ap, T(o.ring->depth_mm)) : ap;
 }
 template <class T>
-cutting::Sweep<T> widest_sweep(const OperationModel& o, const T& a) {
+cutting::Sweep<T> limiting_sweep(const OperationModel& o, const PassModel& p,
+                                 const T& a) {
   using std::max;
-  auto s = sweep(o, o.widest(), a);
-  if (o.ring) s.D_large_mm = max(s.D_large_mm, T(o.ring->D_mm));
-  return s;
-}
-template <class T>
-cutting::Sweep<T> narrowest_sweep(const OperationModel& o, const T& a) {
   using std::min;
-  auto s = sweep(o, o.narrowest(), a);
-  if (o.ring) s.D_small_mm = min(s.D_small_mm, T(o.ring->D_mm));
+  auto s = sweep(o, p, a);
+  if (!o.ring) return s;
+  s.D_small_mm = min(s.D_small_mm, T(o.ring->D_mm));
+  s.D_large_mm = max(s.D_large_mm, T(o.ring->D_mm));
+  s.tapered = true;
   return s;
 }
 

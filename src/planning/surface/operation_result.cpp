@@ -148,9 +148,10 @@ ConstraintValue constraint(const PreparedPart& plan, const Chain& chain,
   if (r.row.check == Check::power || r.row.check == Check::torque) {  // from their share
     const auto& o = chain.operations[r.row.operation];
     const double Fc = limiting_forces(o, choice.f[r.row.operation], choice.a).Fc_N;
-    c.value = r.row.check == Check::power
-                  ? units::power_kW(Fc, choice.v[r.row.operation])
-                  : units::torque_Nm(Fc, widest_sweep(o, choice.a).D_large_mm);
+    c.value =
+        r.row.check == Check::power
+            ? units::power_kW(Fc, choice.v[r.row.operation])
+            : units::torque_Nm(Fc, limiting_sweep(o, o.widest(), choice.a).D_large_mm);
     c.limit = c.value / (r.value / r.limit);
   }
   c.margin = -violation(r);
