@@ -213,6 +213,74 @@ TEST(Choice, TheChangeOfEdgesIsTheCheapestOfThoseGiven) {
   EXPECT_EQ(c.plan.cost_per_part, least);
 }
 
+// A collar with an edge in the stock of the second setup.
+json collar(double bar_mm, const json& edges) {
+  return {
+      {"name", "collar"},
+      {"material", "C45"},
+      {"machine", "lathe-medium"},
+      {"stock",
+       {{"kind", "bar"},
+        {"diameter_mm", bar_mm},
+        {"length_mm", 123},
+        {"left_allowance_mm", 1.5}}},
+      {"outer",
+       {{{"id", "seat"}, {"kind", "cylinder"}, {"length_mm", 40}, {"diameter_mm", 40}},
+        {{"id", "collar"}, {"kind", "cylinder"}, {"length_mm", 30}, {"diameter_mm", 54}},
+        {{"id", "end"}, {"kind", "cylinder"}, {"length_mm", 50}, {"diameter_mm", 44}}}},
+      {"edges", edges},
+      {"setups",
+       {{{"hold", "left"}, {"grip_mm", 50}, {"clampings", {"chuck"}}},
+        {{"hold", "right"}, {"grip_mm", 40}, {"clampings", {"chuck"}}}}}};
+}
+
+json chamfered(double mm) { return {{{"at", "collar|end"}, {"chamfer_mm", mm}}}; }
+
+bool faces_collar(const ProcessPlan& plan) {
+  return std::ranges::any_of(plan.setups[0].operations,
+                             [](const auto& o) { return o.on[0] == "collar|end"; });
+}
+
+// A low ring of stock on an edge is cheapest left to the tool that finishes in front; a high
+// one is deeper than that tool may cut.
+TEST(Choice, EdgesInStockAreFacedWhereThatIsCheaper) {
+  const auto low = chosen(collar(55, chamfered(0.3)));
+  ASSERT_EQ(low.plan.alternatives.size(), 2u);
+  EXPECT_EQ(low.chosen, 1u);
+  EXPECT_FALSE(faces_collar(low.plan));
+  EXPECT_TRUE(low.plan.alternatives[0].feasible);
+  EXPECT_LT(low.plan.cost_per_part, *low.plan.alternatives[0].cost_per_part);
+
+  const auto high = chosen(collar(60, chamfered(0.5)));
+  ASSERT_EQ(high.plan.alternatives.size(), 2u);
+  EXPECT_EQ(high.chosen, 0u);
+  EXPECT_TRUE(faces_collar(high.plan));
+}
+
+TEST(Choice, WithoutATurnedEdgeInStockNothingMoreIsFaced) {
+  const auto ways = [](const json& d) {
+    return document::prepared_candidates(d, shop(), "part").usable;
+  };
+  const auto shallow_grip = having(collar(60, chamfered(0.5)), "/setups/0/grip_mm", 30);
+  EXPECT_EQ(ways(shallow_grip).size(), 1u) << "the first setup turns the collar";
+  EXPECT_EQ(ways(collar(60, json::array())).size(), 1u) << "no edge";
+  const auto before_jaws = having(collar(60, chamfered(4)), "/setups/0/grip_mm", 69);
+  EXPECT_EQ(ways(before_jaws).size(), 1u) << "the jaws stand there";
+  EXPECT_EQ(ways(collar(60, chamfered(4))).size(), 2u) << "further from the jaws";
+  const auto low_wall =
+      ways(having(collar(60, chamfered(1.5)), "/outer/1/diameter_mm", 48));
+  EXPECT_EQ(low_wall.size(), 1u) << "less wall than a facing tool's corner needs";
+  EXPECT_TRUE(low_wall[0].document.part.work.unreachable.empty());
+}
+
+TEST(Choice, WhatIfFacesEdgesAsThePlanDoes) {
+  auto d = collar(55, chamfered(0.3));
+  d["what_if"] = {{{"name", "dearer"}, {"set", {{"/batch", 10}}}}};
+  for (const auto& u : document::prepared_candidates(d, shop(), "part").usable)
+    EXPECT_EQ(u.document.what_if.at(0).part.face_edges_in_stock,
+              u.document.part.face_edges_in_stock);
+}
+
 TEST(Choice, WithoutAPlanNoneIsChosen) {
   json p = without(without(reference_part("infeasible-as-drawn"), "machine"), "setups");
   const auto c = chosen(having(

@@ -166,6 +166,11 @@ struct PlanRequest {
   std::vector<SetupRequest> setups;
   std::vector<Milled> milled = {};
   std::optional<std::vector<OperationRequest>> operations;  ///< absent: "auto"
+  /// Whether outer shoulders are faced, asked for or not, where their edge is chamfered or
+  /// rounded into stock that a later setup turns, and `operations` are absent.  Else the
+  /// tool that finishes in front cuts that edge.  No document sets it: candidates of a
+  /// choice have both.
+  bool face_edges_in_stock = true;
   Objective objective = Objective::cost;
   std::optional<double> batch;  ///< absent: preparing the machine is left out of a part
   double machine_per_min = 0;   ///< cost of a machine minute

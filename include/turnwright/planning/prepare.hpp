@@ -16,6 +16,9 @@ PreparedPart prepare(PlanRequest request);
 /// are copied from `like`.
 PreparedPart prepare(PlanRequest request, const PreparedPart& like);
 
+/// Whether a request may have plans that differ by PlanRequest::face_edges_in_stock.
+bool has_edges_in_stock(PlanRequest request);
+
 /// Surfaces, chamfers, undercuts and centre holes that no setup of a request makes, in
 /// grips that help where they are left open: a sentence for each.
 std::vector<std::string> not_made(PlanRequest request);

@@ -21,7 +21,10 @@ struct SetupWork {
   std::vector<std::size_t> elements;   ///< indices into drawing.outer
   bool end_face = false;               ///< the face of the free end
   std::vector<std::size_t> shoulders;  ///< element k: the face "k-1|k", where it is faced
-  std::vector<std::size_t> bores;      ///< indices into drawing.inner
+  /// Element k of shoulders that may be faced because an edge behind them stands in stock
+  /// (PlanRequest::face_edges_in_stock).
+  std::vector<std::size_t> before_stock;
+  std::vector<std::size_t> bores;  ///< indices into drawing.inner
   /// Of these, where a tolerance is on the shoulder at the inner end: it is faced.
   std::vector<std::size_t> inner_shoulders;
   /// Chamfers at the free end of elements that earlier setups have made, which no tool cuts

@@ -228,8 +228,13 @@ std::vector<planning::WhatIf> what_if(const LoadedPart& loaded,
       continue;
     }
     try {
-      all.push_back(
-          {change.name, prepared_part(change.document, catalogue, loaded.document).part});
+      auto changed = prepared_part(change.document, catalogue, loaded.document).part;
+      if (!loaded.plan.face_edges_in_stock) {
+        planning::PlanRequest request = changed;
+        request.face_edges_in_stock = false;
+        changed = planning::prepare(std::move(request));
+      }
+      all.push_back({change.name, std::move(changed)});
     } catch (const InputError& error) {
       for (auto p : error.problems()) {
         p.pointer = change.pointer + p.pointer;
@@ -265,6 +270,20 @@ void add_usable(const std::string& name, LoadedPart loaded, const Catalogue& cat
       all[all.size() - 2].document.part.rules.proven_within_pct / kPercent;
 }
 
+// With walls before edges in stock faced, and left to the tools that finish.
+void add_facings(const std::string& name, LoadedPart loaded, const Catalogue& catalogue,
+                 Usable& all) {
+  if (!planning::has_edges_in_stock(loaded.plan))
+    return add_usable(name, std::move(loaded), catalogue, all);
+  const std::string prefix = name.empty() ? "" : name + "; ";
+  auto left = loaded;
+  left.plan.face_edges_in_stock = false;
+  add_usable(prefix + tr("shoulders before edges in stock faced"), std::move(loaded),
+             catalogue, all);
+  add_usable(prefix + tr("edges in stock left to the tools that finish in front"),
+             std::move(left), catalogue, all);
+}
+
 // A variant in every way of making those bores that tools on the axis may make instead of a
 // boring bar; names tell them apart.  `bored` are those that are settled so.
 void add_ways(Variant variant, LoadedPart loaded, std::vector<std::size_t> bored,
@@ -274,7 +293,7 @@ void add_ways(Variant variant, LoadedPart loaded, std::vector<std::size_t> bored
   });
   if (open == loaded.drillable.end()) {
     loaded.plan.window_curves = window_curves;
-    return add_usable(variant.name, std::move(loaded), catalogue, all);
+    return add_facings(variant.name, std::move(loaded), catalogue, all);
   }
   const std::string bore = (variant.name.empty() ? "" : variant.name + "; ") +
                            loaded.plan.drawing.inner[open->inner].id + " ";

@@ -195,7 +195,7 @@ Placed placed(const PreparedPart& p, const Reach& reach) {
       std::reverse(a.setups[s].elements.begin(), a.setups[s].elements.end());
   assign_end_faces(p, reach, a);
   assign_shoulders(p, reach, a);
-  if (!p.operations) face_below_rings(p, a.setups);
+  if (!p.operations) assign_edges_in_stock(p, a.setups);
   assign_centres(p, a);
   for (const auto& not_cut :
        {assign_chamfers(p, a.setups), undercuts_not_cut(p, a.setups)})

@@ -39,27 +39,6 @@ bool leaves_wall(const PreparedPart& p, const SetupWork& work, const Element& e,
   });
 }
 
-// The shoulder between an element and the one in front if the setup cuts an edge of the
-// element there, which is stock until a later one.
-bool has_ring(const PreparedPart& p, const std::vector<SetupWork>& setups, std::size_t s,
-              const Element& e, const Element& front) {
-  if (p.drawing.outer[e.index].as_stock || !makes(setups[s], front) ||
-      !turned(chamfer_at(p.drawing, e, free_end(p, s))))
-    return false;
-  for (std::size_t k = 0; k <= s; ++k)
-    if (makes(setups[k], e)) return false;
-  return true;
-}
-
-bool faces_ring(const PreparedPart& p, const SetupWork& work, const Element& e,
-                const Element& front, End end) {
-  const auto tools = shoulder_tools(p, front, e);
-  return leaves_wall(p, work, e, front, end) &&
-         std::ranges::any_of(tools, [&](const catalogue::Tool* t) {
-           return takes_ring(*t, *chamfer_at(p.drawing, e, end));
-         });
-}
-
 // Whether a setup plunges the groove beside an element that is made by then, so that the
 // blade cuts the chamfer at its rim.
 bool cut_by_blade(const PreparedPart& p, const std::vector<SetupWork>& setups,
@@ -103,6 +82,26 @@ bool cut_on_the_way(const PreparedPart& p, const std::vector<SetupWork>& setups,
   for (std::size_t s = 0; s < setups.size(); ++s)
     if (cut_in(p, setups, s, e, end, *chamfer_at(p.drawing, e, end))) return true;
   return false;
+}
+
+// Whether a setup cuts an edge of an element while that is stock.
+bool cuts_ring(const PreparedPart& p, const std::vector<SetupWork>& setups, std::size_t s,
+               const Element& e) {
+  const End end = free_end(p, s);
+  const auto chamfer = turned(chamfer_at(p.drawing, e, end));
+  if (!chamfer || p.drawing.outer[e.index].as_stock) return false;
+  for (std::size_t k = 0; k <= s; ++k)
+    if (makes(setups[k], e)) return false;
+  return cut_in(p, setups, s, e, end, *chamfer);
+}
+
+// Whether one of the tools that may face a shoulder takes the ring above its edge.
+bool can_face_ring(const PreparedPart& p, const Element& front, const Element& e,
+                   End end) {
+  const auto tools = shoulder_tools(p, front, e);
+  return std::ranges::any_of(tools, [&](const catalogue::Tool* t) {
+    return takes_ring(*t, *chamfer_at(p.drawing, e, end));
+  });
 }
 
 // The setup, if any, in which a pass of its own cuts a chamfer at a face of the part.
@@ -159,19 +158,21 @@ void leave_to_the_hand(PreparedPart& p) {
   of(p.drawing.inner, true);
 }
 
-void face_below_rings(const PreparedPart& p, std::vector<SetupWork>& setups) {
-  const auto& outer = p.drawing.outer;
+void assign_edges_in_stock(const PreparedPart& p, std::vector<SetupWork>& setups) {
   for (std::size_t s = 0; s < setups.size(); ++s) {
     const End end = free_end(p, s);
-    for (std::size_t k = 1; k < outer.size(); ++k) {
+    for (std::size_t k = 1; k < p.drawing.outer.size(); ++k) {
       const Element left{false, k - 1}, right{false, k};
       const auto &e = end == End::left ? right : left,
                  &front = end == End::left ? left : right;
-      if (!has_ring(p, setups, s, e, front) || faces_between(setups[s], front, e) ||
-          made_with_undercut(p.drawing, k))
+      auto& work = setups[s];
+      if (!cuts_ring(p, setups, s, e) || faces_between(work, front, e) ||
+          made_with_undercut(p.drawing, k) || !can_face_ring(p, front, e, end))
         continue;
-      setups[s].shoulders.push_back(k);
-      if (!faces_ring(p, setups[s], e, front, end)) setups[s].shoulders.pop_back();
+      work.shoulders.push_back(k);
+      const bool enough_wall = cuts_ring(p, setups, s, e);
+      if (enough_wall) work.before_stock.push_back(k);
+      if (!enough_wall || !p.face_edges_in_stock) work.shoulders.pop_back();
     }
   }
 }

@@ -7,12 +7,13 @@
 /// Which setup cuts which chamfers and undercuts of the drawing.
 namespace turnwright::planning {
 
-/// Has outer shoulders faced whose edges are chamfered while the element behind is stock that
-/// a later setup turns: the facing tool takes the ring above the chamfer from outside, at the
-/// depth of the chamfer.  One that finishes the element in front comes from inside, and its
-/// major edge would meet the ring in its whole height.  Shoulders stay as they are where no
-/// facing tool takes the ring or has enough wall.
-void face_below_rings(const PreparedPart& plan, std::vector<SetupWork>& setups);
+/// Finds the outer shoulders whose edges are chamfered or rounded while the element behind is
+/// stock that a later setup turns, and has them faced if the request wants that: the facing
+/// tool takes the ring above the chamfer from outside, at the depth of the chamfer.  One that
+/// finishes the element in front comes from inside, and its major edge meets the ring in its
+/// whole height.  Shoulders stay as they are where no facing tool takes the ring or has
+/// enough wall.
+void assign_edges_in_stock(const PreparedPart& plan, std::vector<SetupWork>& setups);
 
 /// Gives the chamfers that no tool cuts on its way to a setup with a pass of their own;
 /// returns a reason for each that no setup can cut.  A tool cuts a chamfer on its way in

@@ -72,6 +72,13 @@ PreparedPart prepare(PlanRequest request, const PreparedPart& like) {
   return p;
 }
 
+bool has_edges_in_stock(PlanRequest request) {
+  const auto p = gripped(std::move(request));
+  return p.work.unreachable.empty() &&
+         std::ranges::any_of(p.work.setups,
+                             [](const auto& s) { return !s.before_stock.empty(); });
+}
+
 std::vector<std::string> not_made(PlanRequest request) {
   return gripped(std::move(request)).work.unreachable;
 }

@@ -99,7 +99,7 @@ std::unordered_set<std::string> named_faces(const part::Drawing& d) {
 }
 
 // Whether turning cuts the edge of a shoulder, with which plans may face it
-// (face_below_rings).
+// (assign_edges_in_stock).
 bool has_edge(const part::Drawing& d, std::size_t k) {
   const auto &left = d.outer[k - 1], &right = d.outer[k];
   return turned(right.left_mm > left.right_mm ? right.left_chamfer : left.right_chamfer)

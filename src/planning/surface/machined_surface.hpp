@@ -185,6 +185,8 @@ class MachinedSurface {
                            const Economy& economy) const;
   // In surface_edges.cpp.
   bool cuts_ring() const;
+  bool ring_may_be_faced() const;
+  double ring_mm(const catalogue::Tool& tool, double on_wall_mm) const;
   std::optional<EdgeRing> ring(const Recipe& recipe,
                                const OperationModel& operation) const;
   // In surface_paths.cpp.

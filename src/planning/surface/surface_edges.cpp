@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "base/say.hpp"
@@ -32,7 +33,13 @@ bool MachinedSurface::makes_edges(const catalogue::Tool& tool) const {
   const auto& s = around_;
   if (s.fillet_mm && tool.re_mm > *s.fillet_mm) return false;
   if (s.below_rounding_mm && tool.re_mm > *s.below_rounding_mm) return false;
-  if (cuts_ring() && !takes_ring(tool, s.wall_chamfer)) return false;
+  if (cuts_ring()) {
+    const double on_wall_mm = catalogue::least_depth_mm(tool);
+    const double depth_mm = ring_may_be_faced()
+                                ? ring_mm(tool, on_wall_mm)
+                                : ring_depth_mm(s.wall_chamfer, tool.re_mm, on_wall_mm);
+    if (depth_mm > tool.ap_mm.upper) return false;
+  }
   const auto u = undercut_of_last();
   return !u ||
          (tool.re_mm <= u->radius_mm &&
@@ -42,19 +49,34 @@ bool MachinedSurface::makes_edges(const catalogue::Tool& tool) const {
           tool.ap_mm.upper > u->depth_mm);
 }
 
-// Outwards along the edge the major edge meets the ring in its whole height.
-std::optional<EdgeRing> MachinedSurface::ring(const Recipe& recipe,
-                                              const OperationModel& o) const {
+// Whether other plans may face that wall.  Where none may, the short cut into the ring's
+// height is allowed beyond the largest depth.
+bool MachinedSurface::ring_may_be_faced() const {
+  if (kind_ != Kind::element) return false;
+  const auto& shoulders = plan_->work.setups[setup_].before_stock;
+  const std::size_t k = around_.mirrored ? index_ + 1 : index_;
+  return std::ranges::find(shoulders, k) != shoulders.end();
+}
+
+// Depth of the ring of stock there with what stands on the wall.  Outwards along the edge
+// the major edge meets it in its whole height.
+double MachinedSurface::ring_mm(const catalogue::Tool& tool, double on_wall_mm) const {
   const auto& s = around_;
   const auto& c = s.wall_chamfer;
-  if (!cuts_ring()) return {};
-  if (is_face())
-    return EdgeRing{ring_depth_mm(c, o.tool->re_mm, o.ap.lower), 2 * top_mm_};
-  const double on_wall_mm = recipe.finish ? catalogue::least_depth_mm(*recipe.finish) : 0;
+  const double along = ring_depth_mm(c, tool.re_mm, on_wall_mm);
+  if (is_face()) return along;
   const double across = c.axial_mm / std::hypot(c.axial_mm, c.radial_mm);
-  return EdgeRing{std::max(ring_depth_mm(c, o.tool->re_mm, on_wall_mm),
-                           (s.wall_h - s.wall_edge_h) * across),
-                  2 * std::abs(s.wall_h)};
+  return std::max(along, (s.wall_h - s.wall_edge_h) * across);
+}
+
+std::optional<EdgeRing> MachinedSurface::ring(const Recipe& recipe,
+                                              const OperationModel& o) const {
+  if (!cuts_ring()) return {};
+  const double on_wall_mm = is_face()       ? o.ap.lower
+                            : recipe.finish ? catalogue::least_depth_mm(*recipe.finish)
+                                            : 0;
+  return EdgeRing{ring_mm(*o.tool, on_wall_mm),
+                  2 * (is_face() ? top_mm_ : std::abs(around_.wall_h))};
 }
 
 std::string MachinedSurface::edges_asked() const {
