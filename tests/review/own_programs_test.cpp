@@ -71,15 +71,18 @@ nc::Programs turning_programs(const Planned& p) {
   return nc::programs(part, p.plan);
 }
 
-Reviewed reviewed(const Planned& p, const nc::Settings& settings) {
+/// The programs of the setups from `first` on.
+Reviewed reviewed(const Planned& p, const nc::Settings& settings, std::size_t first = 0) {
   Reviewed r{turning_programs(p), {}, {}};
   nc::number_tools(r.programs.setups, settings);
   r.tools = turret(p, r.programs);
   std::vector<ReviewedProgram> programs;
   for (const auto& s : r.programs.setups)
-    programs.push_back({s.setup, read_program(nc::text(s, settings),
-                                              {.control = settings.control,
-                                               .n_max_rpm = p.part.machine.n_max_rpm})});
+    if (s.setup >= first)
+      programs.push_back(
+          {s.setup,
+           read_program(nc::text(s, settings), {.control = settings.control,
+                                                .n_max_rpm = p.part.machine.n_max_rpm})});
   r.review = review(p.part, programs, r.tools);
   return r;
 }
@@ -206,15 +209,20 @@ void expect_review_of_plan(const std::string& name, const Planned& p,
   expect_tolerances_of_plan(name, p, r);
 }
 
-TEST(ReviewOfOwnPrograms, GivesForcesTimesAndTolerancesOfThePlanInLinuxCnc) {
-  // The plans of some parts take most of the time: TURNWRIGHT_ALL_PARTS=1 has them too.
+// The plans of some parts take most of the time: TURNWRIGHT_ALL_PARTS=1 has them too.
+std::vector<std::string> parts() {
+  auto all = nc::test::reference_parts();
   const std::set<std::string> slow{"gearbox-input-shaft", "infeasible-as-drawn",
                                    "keyed-shaft"};
-  const bool all = std::getenv("TURNWRIGHT_ALL_PARTS") != nullptr;
-  for (const auto& name : nc::test::reference_parts())
-    if (all || !slow.contains(name))
-      expect_review_of_plan(name, nc::test::planned_reference(name),
-                            {.control = gcode::Control::linuxcnc});
+  if (!std::getenv("TURNWRIGHT_ALL_PARTS"))
+    std::erase_if(all, [&](const auto& name) { return slow.contains(name); });
+  return all;
+}
+
+TEST(ReviewOfOwnPrograms, GivesForcesTimesAndTolerancesOfThePlanInLinuxCnc) {
+  for (const auto& name : parts())
+    expect_review_of_plan(name, nc::test::planned_reference(name),
+                          {.control = gcode::Control::linuxcnc});
 }
 
 // Two finishing passes without a rapid between them, each of which climbs its wall: the one
@@ -232,6 +240,23 @@ TEST(ReviewOfOwnPrograms, GivesWallsToThePassThatClimbsThem) {
     EXPECT_NEAR(c->passes.at(0).time_min / o.passes.at(0).time_min, 1, 0.01) << o.id;
   }
   EXPECT_EQ(finished, 2);
+}
+
+// What stands before a second setup is as drawn where the first has no program.
+TEST(ReviewOfOwnPrograms, OfSecondSetupsAloneFindTheSameCuts) {
+  for (const auto& name : parts()) {
+    const auto& p = nc::test::planned_reference(name);
+    const auto both = reviewed(p, {}), second = reviewed(p, {}, 1);
+    if (both.review.setups.size() < 2) continue;
+    const auto &expected = both.review.setups[1].cuts,
+               &cuts = second.review.setups[0].cuts;
+    ASSERT_EQ(cuts.size(), expected.size()) << name;
+    for (std::size_t i = 0; i < cuts.size(); ++i) {
+      EXPECT_EQ(cuts[i].on, expected[i].on) << name;
+      EXPECT_NEAR(cuts[i].passes[0].ap_mm, expected[i].passes[0].ap_mm, 0.05)
+          << name << " " << cuts[i].on;
+    }
+  }
 }
 
 TEST(ReviewOfOwnPrograms, GivesForcesTimesAndTolerancesOfThePlanInFanuc) {

@@ -39,7 +39,7 @@ Workpiece::Workpiece(const planning::PreparedPart& part)
 void Workpiece::make_as_drawn(std::size_t setup) {
   const auto& d = part_.drawing;
   const auto& work = part_.work.setups[setup];
-  const double far = d.stock.outer_mm;
+  const double far = std::max(d.stock.outer_mm, d.stock.length_mm);
   const double L = part::length_mm(d);
   for (const std::size_t i : work.elements) {
     const auto& e = d.outer[i];
@@ -51,10 +51,14 @@ void Workpiece::make_as_drawn(std::size_t setup) {
     const double a = part::inner_left_z_mm(d, i), b = a + e.length_mm;
     section.cut(hull({{0, a}, {e.left_mm / 2, a}, {e.right_mm / 2, b}, {0, b}}));
   }
-  if (!work.end_face) return;
-  const bool right = part_.setups[setup].hold == part::End::left;
-  const double from = right ? L : -far, to = right ? L + far : 0;
-  section.cut(hull({{0, from}, {far, from}, {far, to}, {0, to}}));
+  const auto cut_off = [&](part::End end, double allowance_mm) {
+    const double from = end == part::End::left ? -far : L + allowance_mm;
+    const double to = end == part::End::left ? -allowance_mm : L + far;
+    section.cut(hull({{0, from}, {far, from}, {far, to}, {0, to}}));
+  };
+  const auto held = part_.setups[setup].hold;
+  if (work.end_face) cut_off(part::opposite(held), 0);
+  if (setup == 0 && d.stock.parted_mm) cut_off(held, *d.stock.parted_mm);
 }
 
 std::string Workpiece::element_at(double z, bool inner) const {
