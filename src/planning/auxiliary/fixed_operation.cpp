@@ -27,13 +27,18 @@ catalogue::FixedConditions gentlest(const catalogue::FixedConditions& at) {
   return catalogue::at(at, at.window->vc_m_min.lower, at.window->f_mm_rev.lower);
 }
 
-// A given depth names the tool's size: half a drill's diameter, the width of a blade
-// that parts off.
-bool of_given_depth(const Asked& a, double size) {
-  if (!a.given || !a.given->conditions.ap_mm) return true;
-  const double ap = *a.given->conditions.ap_mm;
-  if (drills(a.use)) return std::abs(size / (2 * ap) - 1) < 1e-9;
-  return a.use != FixedUse::parting || std::abs(size / ap - 1) < 1e-9;
+// Whether a tool has the size that a given depth names: half a drill's diameter, the width
+// of a blade.
+bool has_given_depth(const Asked& a, double size) {
+  if (!a.given || !a.given->conditions.ap_mm) return false;
+  return std::abs(size / ((drills(a.use) ? 2 : 1) * *a.given->conditions.ap_mm) - 1) <
+         1e-9;
+}
+
+// Only plunges of a groove may be less wide than their blade.
+bool may_have_depth(const Asked& a, double size) {
+  return !a.given || !a.given->conditions.ap_mm || has_given_depth(a, size) ||
+         !(drills(a.use) || a.use == FixedUse::parting);
 }
 
 // Adds a limit, or keeps the tighter of two of the same name.
@@ -51,8 +56,12 @@ void tighten(std::vector<ConstraintValue>& all, const ConstraintValue& c) {
 Fitted fitted(const PlanRequest& p, const Asked& a) {
   Fitted best;
   const bool smallest = a.use == FixedUse::parting || a.use == FixedUse::countersinking;
+  const auto meant = [&](double size) {
+    return a.use == FixedUse::grooving && has_given_depth(a, size);
+  };
   const auto is_better = [&](const FixedTool& t, double size) {
     if (!best.tool) return true;
+    if (meant(size) != meant(best.size_mm)) return meant(size);
     if (size != best.size_mm) return smallest == (size < best.size_mm);
     return a.use == FixedUse::drilling &&
            std::tie(t.reach, t.id) < std::tie(best.tool->reach, best.tool->id);
@@ -63,7 +72,7 @@ Fitted fitted(const PlanRequest& p, const Asked& a) {
     if (a.given && a.given->tool && *a.given->tool != t.id) continue;
     const auto sizes = t.sizes_mm.empty() ? std::vector{0.0} : t.sizes_mm;
     for (const double size : sizes)
-      if (a.fits(t, size) && of_given_depth(a, size) && is_better(t, size))
+      if (a.fits(t, size) && may_have_depth(a, size) && is_better(t, size))
         best = {&t, size, *at, {}, {}};
   }
   if (!best.tool) return best;

@@ -606,6 +606,21 @@ json given_groove() {
   return d;
 }
 
+TEST(Given, TheDepthOfAPlungeIsTheWidthOfItsBlade) {
+  const auto plunges = [](double ap_mm) {
+    auto d = given_groove();
+    d["outer"][2]["length_mm"] = 13;
+    d["stock"]["length_mm"] = 125;
+    d["operations"][5]["conditions"] = {{"ap_mm", ap_mm}};
+    return copy_of(plan(part(d)), "groove").passes;
+  };
+  EXPECT_EQ(plunges(4).size(), 4U);
+  EXPECT_EQ(plunges(4)[0].ap_mm, 4);
+  // No blade is 4.5 mm wide: one of 6 mm steps by that.
+  EXPECT_EQ(plunges(4.5).size(), 3U);
+  EXPECT_EQ(plunges(4.5)[0].ap_mm, 6);
+}
+
 TEST(Given, FixedOperationsKeepTheirIdsAndConditions) {
   auto d = given_groove();
   d["operations"][5]["conditions"] = {{"f_mm_rev", 0.07}, {"vc_m_min", 90}};
