@@ -28,6 +28,7 @@ double free_radius(const System& system, double tau) {
 }  // namespace
 
 Multipliers multipliers(const System& system, double n_rpm, double ap_mm) {
+  if (system.modes.empty()) return {.unstable = 0, .spectral_radius = 0};
   const Characteristic f(system, n_rpm, kFine);
   if (ap_mm == 0)
     return {.unstable = 0, .spectral_radius = free_radius(system, f.tau_s())};

@@ -77,7 +77,7 @@ class Expansion {
     // An axis without a mode does not move, and a force along it has no effect.
     const std::size_t from = stretches_.used[0] ? 0 : p,
                       to = stretches_.used[1] ? 2 * p : p;
-    const std::span moving(force.data() + from * m, (to - from) * m);  // empty if rigid
+    const std::span moving(&force[from * m], (to - from) * m);
     double scale = 1;
     for (std::size_t degree = 1; degree <= kDegree; ++degree) {
       for (std::size_t i = 0; i < p; ++i)
@@ -87,8 +87,8 @@ class Expansion {
           force[p * m + c] = -(h[i].yx * x + h[i].yy * y);
         }
       out.coefficients.resize((degree + 1) * m * m);
-      double* end = out.coefficients.data() + degree * m * m;
-      multiply(kernel.end.data() + from * m, m, m, moving, end);
+      double* end = &out.coefficients[degree * m * m];
+      multiply(&kernel.end[from * m], m, m, moving, end);
       out.degree = degree;
       scale *= kappa_max_;
       double largest = 0;
