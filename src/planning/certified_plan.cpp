@@ -137,6 +137,23 @@ Shortfall shortfall(const Attempt& a) {
 
 }  // namespace
 
+double objective(const PreparedPart& p, const ProcessPlan& plan) {
+  switch (p.objective) {
+    case Objective::time:
+      return plan.time_per_part_min;
+    case Objective::profit:
+      return -plan.profit_per_min.value_or(0);
+    case Objective::cost:
+      break;
+  }
+  return plan.cost_per_part;
+}
+
+bool is_better(const PreparedPart& p, const ProcessPlan& plan, const ProcessPlan& other) {
+  return plan.status == PlanStatus::ok &&
+         (other.status != PlanStatus::ok || objective(p, plan) < objective(p, other));
+}
+
 ProcessPlan certified_plan(const PreparedPart& p, const std::vector<WhatIf>& what_if) {
   return nearest_plan(p, what_if).plan;
 }

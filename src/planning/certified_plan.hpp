@@ -15,6 +15,14 @@ namespace turnwright::planning {
 ProcessPlan certified_plan(const PreparedPart& part,
                            const std::vector<WhatIf>& what_if = {});
 
+/// What a plan is chosen by; smaller is better.
+double objective(const PreparedPart& part, const ProcessPlan& plan);
+
+/// Whether a plan of a part is to be had rather than another one: it is feasible, and the
+/// other is not or has a larger objective.
+bool is_better(const PreparedPart& part, const ProcessPlan& plan,
+               const ProcessPlan& other);
+
 /// How far a part is from a plan, compared member by member; all zero with a plan.
 struct Shortfall {
   bool unsolved = false;   ///< a conflict that no conditions can resolve

@@ -19,19 +19,6 @@
 namespace turnwright::planning {
 namespace {
 
-// Smaller is better.
-double objective(const PreparedPart& p, const ProcessPlan& plan) {
-  switch (p.objective) {
-    case Objective::time:
-      return plan.time_per_part_min;
-    case Objective::profit:
-      return -plan.profit_per_min.value_or(0);
-    case Objective::cost:
-      break;
-  }
-  return plan.cost_per_part;
-}
-
 Alternative alternative(const std::string& name, const ProcessPlan& plan) {
   const bool feasible = plan.status == PlanStatus::ok;
   Alternative a{.name = name, .feasible = feasible};
@@ -86,28 +73,38 @@ struct Compared {
   std::vector<std::string> set_aside;  // why, else empty
 };
 
-// Of each two plans, one at proven conditions and one at any, one is set aside.
+void set_aside(const std::string& why, std::size_t i, Compared& all) {
+  auto& plan = all.judged[i];
+  if (plan.status != PlanStatus::ok) return;
+  plan.status = PlanStatus::infeasible;
+  auto& conflict = plan.conflicts.emplace_back();
+  conflict.limit = to_translate("rules");
+  conflict.sentence = all.set_aside[i] = why;
+}
+
+// Of the plans at proven conditions and those at any the ones or the others are set aside.
 void prefer_proven(const std::vector<Candidate>& candidates, Compared& all) {
   constexpr double kPercent = 100;
+  double proven = INFINITY, any = INFINITY, within = 0;
+  const auto value = [&](std::size_t i) {
+    const bool feasible = all.judged[i].status == PlanStatus::ok;
+    return feasible ? objective(candidates[i].part, all.judged[i]) : INFINITY;
+  };
   for (std::size_t i = 1; i < candidates.size(); ++i) {
-    const auto& within = candidates[i].unless_within;
-    const auto &proven = all.judged[i - 1], &any = all.judged[i];
-    if (!within || proven.status != PlanStatus::ok || any.status != PlanStatus::ok)
-      continue;
-    const double least = objective(candidates[i].part, any);
-    const double more =
-        (objective(candidates[i - 1].part, proven) - least) / std::abs(least);
-    const bool kept = more <= *within;
-    const auto aside = kept ? i : i - 1;
-    all.set_aside[aside] =
-        say("set aside, proven conditions cost {} % more than others, {} than {} %",
-            readable(kPercent * std::max(0.0, more)), kept ? tr("not more") : tr("more"),
-            readable(kPercent * *within));
-    all.judged[aside].status = PlanStatus::infeasible;
-    auto& conflict = all.judged[aside].conflicts.emplace_back();
-    conflict.limit = to_translate("rules");
-    conflict.sentence = all.set_aside[aside];
+    if (!candidates[i].unless_within) continue;
+    within = *candidates[i].unless_within;
+    proven = std::min(proven, value(i - 1));
+    any = std::min(any, value(i));
   }
+  if (std::isinf(proven) || std::isinf(any)) return;
+  const double more = (proven - any) / std::abs(any);
+  const bool kept = more <= within;
+  const auto why =
+      say("set aside, proven conditions cost {} % more than others, {} than {} %",
+          readable(kPercent * std::max(0.0, more)), kept ? tr("not more") : tr("more"),
+          readable(kPercent * within));
+  for (std::size_t i = 1; i < candidates.size(); ++i)
+    if (candidates[i].unless_within) set_aside(why, kept ? i : i - 1, all);
 }
 
 Compared compare(const std::vector<Candidate>& candidates, const Judge& judge) {

@@ -134,15 +134,23 @@ std::vector<Variant> variants(const PreparedPart& p, const Attempt* attempt) {
   return all;
 }
 
-// The plan of a changed request, if there is one.
-std::optional<ProcessPlan> plan_of(PlanRequest request) {
-  if (!not_made(request).empty()) return {};
-  const auto changed = prepare(std::move(request));
+std::optional<ProcessPlan> plan_of(const PreparedPart& changed) {
   if (Feasibility oracle(changed);
       !oracle.with(RelaxationFactors(oracle.limits().size(), 1)))
     return {};
   auto plan = certified_plan(changed);
   if (plan.status != PlanStatus::ok) return {};
+  return plan;
+}
+
+// The plan of a changed request, if there is one.
+std::optional<ProcessPlan> plan_of(PlanRequest request) {
+  if (!not_made(request).empty()) return {};
+  const auto changed = prepare(std::move(request));
+  auto plan = plan_of(changed);
+  const auto other = faced_otherwise(changed);
+  auto otherwise = other ? plan_of(*other) : std::nullopt;
+  if (otherwise && (!plan || is_better(changed, *otherwise, *plan))) return otherwise;
   return plan;
 }
 

@@ -44,11 +44,21 @@ std::string sentence(const PreparedPart& p, const ProcessPlan& own, const WhatIf
              saves(seconds, " s"));
 }
 
+// The plan of a changed request, with edges in stock faced or not, whichever is better.
+ProcessPlan planned(const PreparedPart& part) {
+  auto plan = certified_plan(part);
+  if (const auto other = faced_otherwise(part)) {
+    auto otherwise = certified_plan(*other);
+    if (is_better(part, otherwise, plan)) return otherwise;
+  }
+  add_explanation(part, plan);
+  return plan;
+}
+
 // Plans the changed request and completes the answer to it.
 void answer_one(const PreparedPart& p, const PreparedPart& part, const ProcessPlan& own,
                 WhatIfAnswer& a) {
-  auto changed = certified_plan(part);
-  add_explanation(part, changed);
+  const auto changed = planned(part);
   a.feasible = changed.status == PlanStatus::ok;
   a.cost_per_part = changed.cost_per_part;
   a.time_per_part_min = changed.time_per_part_min;

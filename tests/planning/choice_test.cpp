@@ -22,7 +22,8 @@ ChosenPlan chosen(const json& document) {
   const auto all = document::prepared_candidates(document, shop(), "part");
   std::vector<Candidate> candidates;
   for (const auto& u : all.usable)
-    candidates.push_back({u.name, u.document.part, u.document.what_if});
+    candidates.push_back(
+        {u.name, u.document.part, u.document.what_if, u.without, u.unless_within});
   return choose(candidates, [](const PreparedPart&, ProcessPlan&) {});
 }
 
@@ -273,12 +274,92 @@ TEST(Choice, WithoutATurnedEdgeInStockNothingMoreIsFaced) {
   EXPECT_TRUE(low_wall[0].document.part.work.unreachable.empty());
 }
 
-TEST(Choice, WhatIfFacesEdgesAsThePlanDoes) {
+// The other way round, from right to left.
+json mirrored(json d) {
+  const auto other = [](const std::string& end) {
+    return end == "left" ? "right" : "left";
+  };
+  std::ranges::reverse(d["outer"]);
+  for (auto& e : d["edges"]) e["at"] = "end|collar";
+  for (auto& s : d["setups"]) s["hold"] = other(s["hold"]);
+  return d;
+}
+
+TEST(Choice, EdgesInStockAreFacedAlikeFromEitherSide) {
+  for (const auto& d : {collar(55, chamfered(0.3)), collar(60, chamfered(0.5))}) {
+    const auto one = chosen(d), other = chosen(mirrored(d));
+    EXPECT_EQ(one.chosen, other.chosen);
+    for (const int way : {0, 1}) {
+      const auto &a = one.plan.alternatives.at(way), &b = other.plan.alternatives.at(way);
+      EXPECT_EQ(a.name, b.name);
+      ASSERT_EQ(a.feasible, b.feasible) << a.name;
+      if (a.feasible) {
+        EXPECT_NEAR(*a.cost_per_part / *b.cost_per_part, 1, 1e-9) << a.name;
+      }
+    }
+  }
+}
+
+TEST(Choice, WaysOfFacingHaveNames) {
   auto d = collar(55, chamfered(0.3));
-  d["what_if"] = {{{"name", "dearer"}, {"set", {{"/batch", 10}}}}};
-  for (const auto& u : document::prepared_candidates(d, shop(), "part").usable)
-    EXPECT_EQ(u.document.what_if.at(0).part.face_edges_in_stock,
-              u.document.part.face_edges_in_stock);
+  d["choose"] = {{"machine", {"lathe-medium", "lathe-heavy"}}};
+  d.erase("machine");
+  std::vector<std::string> names;
+  for (const auto& a : chosen(d).plan.alternatives) names.push_back(a.name);
+  const std::string faced = "; shoulders before edges in stock faced",
+                    left = "; edges in stock left to the tools that finish in front";
+  EXPECT_EQ(names, (std::vector{"lathe-medium" + faced, "lathe-medium" + left,
+                                "lathe-heavy" + faced, "lathe-heavy" + left}));
+}
+
+// Whether shoulders are faced or not, the best plan at proven conditions is held against the
+// best at any.
+TEST(Choice, ProvenConditionsAreComparedOverAllWaysOfFacing) {
+  const auto cost = [](double within_pct, const json& condition) {
+    auto d = collar(55, chamfered(0.3));
+    d["rules"] = {{"proven", {{"within_pct", within_pct}, {"conditions", {condition}}}}};
+    const auto plan = chosen(d).plan;
+    double least[2] = {INFINITY, INFINITY};  // at proven conditions, at any
+    for (std::size_t i = 0; i < 4; ++i) {
+      const auto& a = plan.alternatives.at(i);
+      if (a.feasible) least[i % 2] = std::min(least[i % 2], *a.cost_per_part);
+    }
+    EXPECT_GT(least[0], least[1]);
+    const bool proven = least[0] <= (1 + within_pct / 100) * least[1];
+    EXPECT_EQ(plan.cost_per_part, proven ? least[0] : least[1]);
+    EXPECT_EQ(plan.status, PlanStatus::ok);
+    return proven;
+  };
+  // The tool that finishes is not deep enough for the ring at proven conditions.
+  const json shallow{
+      {"tool", "PDJNL-DNMG150604-PF"}, {"material", "C45"}, {"ap_mm", {0.2, 0.5}}};
+  EXPECT_TRUE(cost(5, shallow));
+  EXPECT_FALSE(cost(1, shallow));
+  const json slow{
+      {"tool", "PCLNL-CNMG120408-PM"}, {"material", "C45"}, {"vc_m_min", {110, 150}}};
+  EXPECT_TRUE(cost(4.35, slow));
+  EXPECT_FALSE(cost(2, slow));
+}
+
+// Whether edges in stock are faced is chosen anew for what is changed, as for a request of
+// its own, but the first-order saving is that of the plan's own operations.
+TEST(Choice, WhatIfChoosesFacingAnew) {
+  const auto changed = [](const json& d, const char* key, const json& value) {
+    auto asked = d;
+    asked["what_if"] = {{{"name", "changed"}, {"set", {{key, value}}}}};
+    const auto own = chosen(asked).plan;
+    const auto& a = own.what_if.at(0);
+    const auto direct = chosen(having(d, key, value)).plan;
+    EXPECT_TRUE(a.feasible) << key;
+    EXPECT_NEAR(a.cost_per_part, direct.cost_per_part, 1e-12) << key;
+    for (const auto& u : document::prepared_candidates(asked, shop(), "part").usable)
+      EXPECT_EQ(u.document.what_if.at(0).part.face_edges_in_stock,
+                u.document.part.face_edges_in_stock);
+  };
+  changed(collar(55, chamfered(0.3)), "/batch", 10);
+  changed(collar(55, chamfered(0.3)), "/stock/diameter_mm", 60);
+  changed(collar(60, chamfered(0.3)), "/stock/diameter_mm", 55);
+  changed(collar(55, chamfered(0.3)), "/edges/0/chamfer_mm", 4);
 }
 
 TEST(Choice, WithoutAPlanNoneIsChosen) {

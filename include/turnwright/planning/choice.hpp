@@ -16,8 +16,9 @@ struct Candidate {
   PreparedPart part;
   std::vector<WhatIf> what_if = {};
   std::vector<WithoutRule> without = {};  ///< whose savings are told
-  /// The candidate before this one has proven conditions, which this one has not, and is
-  /// preferred if it costs at most so much more, as a share of this one's objective.
+  /// The candidate before this one has proven conditions, which this one has not.  The best
+  /// of those is preferred if it costs at most so much more, as a share of the objective of
+  /// the best of these.  Candidates agree on it.
   std::optional<double> unless_within = {};
 };
 
@@ -36,8 +37,8 @@ using Judge = std::function<void(const PreparedPart&, ProcessPlan&)>;
 std::vector<ProcessPlan> judged_plans(const std::vector<Candidate>& candidates,
                                       const Judge& judge);
 
-/// The plan of the candidate with the best objective; the first of equals.  Of two
-/// candidates, one at proven conditions and one at any, one is set aside first.  Each candidate's
+/// The plan of the candidate with the best objective; the first of equals.  Candidates
+/// at proven conditions or those at any are set aside first.  Each candidate's
 /// plan has its own certificate, so no candidate can be made for less than the least of their
 /// lower bounds: the plan's certificate says so.  If none is feasible, the plan is that of
 /// the candidate that comes closest and explains why: the one with the fewest surfaces that

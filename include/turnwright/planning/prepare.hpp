@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,10 @@ PreparedPart prepare(PlanRequest request, const PreparedPart& like);
 
 /// Whether a request may have plans that differ by PlanRequest::face_edges_in_stock.
 bool has_edges_in_stock(PlanRequest request);
+
+/// The part with edges in stock faced where it has them not, and not where it has; none if
+/// it has no such edges.
+std::optional<PreparedPart> faced_otherwise(const PreparedPart& part);
 
 /// Surfaces, chamfers, undercuts and centre holes that no setup of a request makes, in
 /// grips that help where they are left open: a sentence for each.

@@ -217,6 +217,20 @@ planning::PreparedPart with_limit(const ChangedRequest& change,
   return part;
 }
 
+std::vector<Variant> variants_of(const nlohmann::json& request,
+                                 const std::string& document) {
+  Problems problems{.document = document};
+  auto all = variants(request, problems);
+  problems.throw_if_any();
+  return all;
+}
+
+LoadedPart first_variant(const nlohmann::json& request, const Catalogue& catalogue,
+                         const std::string& document) {
+  auto first = variants_of(request, document).front();
+  return with_setups(first, catalogue, document);
+}
+
 std::vector<planning::WhatIf> what_if(const LoadedPart& loaded,
                                       const planning::PreparedPart& part,
                                       const Catalogue& catalogue) {
@@ -228,13 +242,9 @@ std::vector<planning::WhatIf> what_if(const LoadedPart& loaded,
       continue;
     }
     try {
-      auto changed = prepared_part(change.document, catalogue, loaded.document).part;
-      if (!loaded.plan.face_edges_in_stock) {
-        planning::PlanRequest request = changed;
-        request.face_edges_in_stock = false;
-        changed = planning::prepare(std::move(request));
-      }
-      all.push_back({change.name, std::move(changed)});
+      auto changed = first_variant(change.document, catalogue, loaded.document);
+      changed.plan.face_edges_in_stock = loaded.plan.face_edges_in_stock;
+      all.push_back({change.name, prepared(std::move(changed), catalogue).part});
     } catch (const InputError& error) {
       for (auto p : error.problems()) {
         p.pointer = change.pointer + p.pointer;
@@ -311,14 +321,6 @@ void add_ways(Variant variant, LoadedPart loaded, std::vector<std::size_t> bored
            window_curves, all);
 }
 
-std::vector<Variant> variants_of(const nlohmann::json& request,
-                                 const std::string& document) {
-  Problems problems{.document = document};
-  auto all = variants(request, problems);
-  problems.throw_if_any();
-  return all;
-}
-
 }  // namespace
 
 PreparedDocument prepared(LoadedPart loaded, const Catalogue& catalogue) {
@@ -337,8 +339,7 @@ PreparedDocument prepared_part(const nlohmann::json& json, const Catalogue& cata
                                const std::string& document, Purpose purpose) {
   if (purpose == Purpose::predict)
     return prepared(load_part_plan(json, catalogue, document, purpose), catalogue);
-  auto first = variants_of(json, document).front();
-  return prepared(with_setups(first, catalogue, document), catalogue);
+  return prepared(first_variant(json, catalogue, document), catalogue);
 }
 
 std::set<std::string> currencies(const Candidates& candidates) {

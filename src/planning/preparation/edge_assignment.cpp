@@ -85,8 +85,8 @@ bool cut_on_the_way(const PreparedPart& p, const std::vector<SetupWork>& setups,
 }
 
 // Whether a setup cuts an edge of an element while that is stock.
-bool cuts_ring(const PreparedPart& p, const std::vector<SetupWork>& setups, std::size_t s,
-               const Element& e) {
+bool cuts_edge_in_stock(const PreparedPart& p, const std::vector<SetupWork>& setups,
+                        std::size_t s, const Element& e) {
   const End end = free_end(p, s);
   const auto chamfer = turned(chamfer_at(p.drawing, e, end));
   if (!chamfer || p.drawing.outer[e.index].as_stock) return false;
@@ -166,11 +166,11 @@ void assign_edges_in_stock(const PreparedPart& p, std::vector<SetupWork>& setups
       const auto &e = end == End::left ? right : left,
                  &front = end == End::left ? left : right;
       auto& work = setups[s];
-      if (!cuts_ring(p, setups, s, e) || faces_between(work, front, e) ||
+      if (!cuts_edge_in_stock(p, setups, s, e) || faces_between(work, front, e) ||
           made_with_undercut(p.drawing, k) || !can_face_ring(p, front, e, end))
         continue;
       work.shoulders.push_back(k);
-      const bool enough_wall = cuts_ring(p, setups, s, e);
+      const bool enough_wall = cuts_edge_in_stock(p, setups, s, e);
       if (enough_wall) work.before_stock.push_back(k);
       if (!enough_wall || !p.face_edges_in_stock) work.shoulders.pop_back();
     }

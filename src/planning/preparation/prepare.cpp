@@ -51,6 +51,12 @@ PreparedPart assigned(PlanRequest request) {
   return p;
 }
 
+bool has_edges_in_stock(const Assignment& work) {
+  return work.unreachable.empty() && std::ranges::any_of(work.setups, [](const auto& s) {
+           return !s.before_stock.empty();
+         });
+}
+
 }  // namespace
 
 PreparedPart prepare(PlanRequest request) {
@@ -73,10 +79,14 @@ PreparedPart prepare(PlanRequest request, const PreparedPart& like) {
 }
 
 bool has_edges_in_stock(PlanRequest request) {
-  const auto p = gripped(std::move(request));
-  return p.work.unreachable.empty() &&
-         std::ranges::any_of(p.work.setups,
-                             [](const auto& s) { return !s.before_stock.empty(); });
+  return has_edges_in_stock(gripped(std::move(request)).work);
+}
+
+std::optional<PreparedPart> faced_otherwise(const PreparedPart& part) {
+  if (!has_edges_in_stock(part.work)) return {};
+  PlanRequest request = part;
+  request.face_edges_in_stock = !part.face_edges_in_stock;
+  return prepare(std::move(request), part);
 }
 
 std::vector<std::string> not_made(PlanRequest request) {

@@ -187,6 +187,7 @@ class MachinedSurface {
   bool cuts_ring() const;
   bool ring_may_be_faced() const;
   double ring_mm(const catalogue::Tool& tool, double on_wall_mm) const;
+  double ring_asked_mm(const catalogue::Tool& tool) const;
   std::optional<EdgeRing> ring(const Recipe& recipe,
                                const OperationModel& operation) const;
   // In surface_paths.cpp.

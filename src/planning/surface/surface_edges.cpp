@@ -33,13 +33,7 @@ bool MachinedSurface::makes_edges(const catalogue::Tool& tool) const {
   const auto& s = around_;
   if (s.fillet_mm && tool.re_mm > *s.fillet_mm) return false;
   if (s.below_rounding_mm && tool.re_mm > *s.below_rounding_mm) return false;
-  if (cuts_ring()) {
-    const double on_wall_mm = catalogue::least_depth_mm(tool);
-    const double depth_mm = ring_may_be_faced()
-                                ? ring_mm(tool, on_wall_mm)
-                                : ring_depth_mm(s.wall_chamfer, tool.re_mm, on_wall_mm);
-    if (depth_mm > tool.ap_mm.upper) return false;
-  }
+  if (cuts_ring() && ring_asked_mm(tool) > tool.ap_mm.upper) return false;
   const auto u = undercut_of_last();
   return !u ||
          (tool.re_mm <= u->radius_mm &&
@@ -49,8 +43,7 @@ bool MachinedSurface::makes_edges(const catalogue::Tool& tool) const {
           tool.ap_mm.upper > u->depth_mm);
 }
 
-// Whether other plans may face that wall.  Where none may, the short cut into the ring's
-// height is allowed beyond the largest depth.
+// Whether other plans may face that wall.
 bool MachinedSurface::ring_may_be_faced() const {
   if (kind_ != Kind::element) return false;
   const auto& shoulders = plan_->work.setups[setup_].before_stock;
@@ -67,6 +60,15 @@ double MachinedSurface::ring_mm(const catalogue::Tool& tool, double on_wall_mm) 
   if (is_face()) return along;
   const double across = c.axial_mm / std::hypot(c.axial_mm, c.radial_mm);
   return std::max(along, (s.wall_h - s.wall_edge_h) * across);
+}
+
+// The largest depth that a tool must have for the ring.  Where no plan may face the wall the
+// short cut into the ring's whole height is allowed beyond it, or the part could not be made.
+double MachinedSurface::ring_asked_mm(const catalogue::Tool& tool) const {
+  const double on_wall_mm = catalogue::least_depth_mm(tool);
+  return ring_may_be_faced()
+             ? ring_mm(tool, on_wall_mm)
+             : ring_depth_mm(around_.wall_chamfer, tool.re_mm, on_wall_mm);
 }
 
 std::optional<EdgeRing> MachinedSurface::ring(const Recipe& recipe,
@@ -98,10 +100,13 @@ std::string MachinedSurface::edges_asked() const {
                                90 + units::deg_from_rad(part::leans_rad(*u)))
                          : std::string(),
         units::deg_from_rad(part::falls_rad(*u)), u->depth_mm));
-  if (cuts_ring())
-    add(say("a depth of cut for the {} of {:g} mm into stock",
+  if (cuts_ring() && !plan_->tools.empty()) {
+    double least_mm = INFINITY;
+    for (const auto& t : plan_->tools) least_mm = std::min(least_mm, ring_asked_mm(t));
+    add(say("a depth of cut of {:.3g} mm for the {} of {:g} mm into stock", least_mm,
             s.wall_chamfer.round ? tr("rounded edge") : tr("chamfer"),
             s.wall_chamfer.axial_mm));
+  }
   return all;
 }
 

@@ -294,7 +294,7 @@ std::string html(std::string_view name, const ordered_json& result,
                  sentences_of(list(result, "what_if"))) +
          section(tr("Rules of the shop: the part planned without each"),
                  sentences_of(list(result, "rules"))) +
-         section(tr("Alternatives: each combination, planned"),
+         section(tr("Alternatives: each way, planned"),
                  sentences_of(list(result, "alternatives"))) +
          offsets(result) + compensation(result) + stability(result, figures) +
          windows(result, figures) + assumptions(result);

@@ -273,8 +273,7 @@ std::string alternatives(const ordered_json& result) {
     sentences.resize(kShown);
     more = "  " + say("and {} more, in the result as JSON", all.size() - kShown) + '\n';
   }
-  return '\n' + tr("ALTERNATIVES  each combination, planned") + '\n' +
-         numbered(sentences) + more;
+  return '\n' + tr("ALTERNATIVES  each way, planned") + '\n' + numbered(sentences) + more;
 }
 
 }  // namespace
