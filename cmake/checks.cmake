@@ -71,7 +71,7 @@ foreach(step IN ITEMS build check unit round shop language builder odd)
   set_tests_properties(page.${step} PROPERTIES LABELS page TIMEOUT 900
     SKIP_REGULAR_EXPRESSION "SKIPPED" RESOURCE_LOCK page)
 endforeach()
-set_tests_properties(page.round PROPERTIES COST 100)  # seconds: begun first
+set_tests_properties(page.round page.language PROPERTIES COST 100)  # seconds: begun first
 set_tests_properties(page.builder page.odd PROPERTIES LABELS "page;slow")
 
 add_test(NAME service.mcp COMMAND ${CMAKE_COMMAND}
@@ -87,7 +87,7 @@ set_tests_properties(service.examples PROPERTIES SKIP_REGULAR_EXPRESSION "SKIPPE
 if(NOT TURNWRIGHT_SANITIZE)  # which takes terabytes of address space
   add_test(NAME service.attacks COMMAND ${PROJECT_SOURCE_DIR}/tests/service/attacks.py
     $<TARGET_FILE:turnwright> ${PROJECT_SOURCE_DIR} 50 50)
-  set_tests_properties(service.attacks PROPERTIES TIMEOUT 600)
+  set_tests_properties(service.attacks PROPERTIES TIMEOUT 600 COST 70)
 endif()
 
 # The Python package, made into a wheel and installed in a fresh environment.  A library with
@@ -169,5 +169,5 @@ set_tests_properties(planning.choices-of-machines PROPERTIES LABELS slow TIMEOUT
 # A short batch; scripts/faults runs a long one.
 add_test(NAME cluster.batch COMMAND bash ${PROJECT_SOURCE_DIR}/tests/cluster/batch.bash
   $<TARGET_FILE:turnwright> ${PROJECT_SOURCE_DIR} 300)
-set_tests_properties(cluster.batch PROPERTIES LABELS cluster TIMEOUT 500
+set_tests_properties(cluster.batch PROPERTIES LABELS cluster TIMEOUT 500 COST 50
   SKIP_REGULAR_EXPRESSION "SKIPPED")
