@@ -25,7 +25,7 @@ using planning::PreparedPart;
 constexpr double kWidth = 190, kLeft = 18, kRight = 184, kTop = 24, kHighest = 100;
 constexpr double kLine = 4.2, kJaw = 6, kToolGap = 7;
 constexpr double kBeside = 5;  // mm of the machine, around the stock
-constexpr std::size_t kNameLength = 60, kLegend = 100;
+constexpr std::size_t kNameLength = 60, kLegend = 90;
 constexpr int kColours = 6;
 constexpr double kNothing_mm = 1e-6;
 
