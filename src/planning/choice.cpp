@@ -127,13 +127,10 @@ Compared compare(const std::vector<Candidate>& candidates, const Judge& judge) {
 std::size_t best_of(const std::vector<Candidate>& candidates, const Compared& all) {
   const auto& plans = all.judged;
   const auto feasible = [&](std::size_t i) { return plans[i].status == PlanStatus::ok; };
-  const auto value = [&](std::size_t i) {
-    return objective(candidates[i].part, plans[i]);
-  };
   const auto better = [&](std::size_t i, std::size_t best) {
-    if (feasible(i) != feasible(best)) return feasible(i);
-    return feasible(i) ? value(i) < value(best)
-                       : all.shortfalls[i] < all.shortfalls[best];
+    return feasible(i) || feasible(best)
+               ? is_better(candidates[i].part, plans[i], plans[best])
+               : all.shortfalls[i] < all.shortfalls[best];
   };
   std::size_t best = 0;
   for (std::size_t i = 1; i < plans.size(); ++i)

@@ -24,11 +24,10 @@ double end_radius_mm(const part::Drawing& d, const Element& e, End end) {
   return e.inner ? of(d.inner[e.index]) : of(d.outer[e.index]);
 }
 
-// Whether a facing tool, if it makes the wall before a chamfer, has as much wall left there
-// as its corner needs.
-bool leaves_wall(const PreparedPart& p, const SetupWork& work, const Element& e,
-                 const Element& front, End end) {
-  if (!faces_between(work, front, e)) return true;
+// Whether the wall before a chamfer is as high as the corner of any tool needs that may face
+// it.
+bool wall_takes_corners(const PreparedPart& p, const Element& e, const Element& front,
+                        End end) {
   const auto& d = p.drawing;
   const auto& chamfer = chamfer_at(d, e, end);
   const double wall_mm =
@@ -37,6 +36,12 @@ bool leaves_wall(const PreparedPart& p, const SetupWork& work, const Element& e,
   return std::ranges::all_of(shoulder_tools(p, front, e), [&](const catalogue::Tool* t) {
     return t->re_mm + kNoWall_mm <= wall_mm;
   });
+}
+
+// Whether that is so, if a facing tool makes the wall.
+bool leaves_wall(const PreparedPart& p, const SetupWork& work, const Element& e,
+                 const Element& front, End end) {
+  return !faces_between(work, front, e) || wall_takes_corners(p, e, front, end);
 }
 
 // Whether a setup plunges the groove beside an element that is made by then, so that the
@@ -169,10 +174,9 @@ void assign_edges_in_stock(const PreparedPart& p, std::vector<SetupWork>& setups
       if (!cuts_edge_in_stock(p, setups, s, e) || faces_between(work, front, e) ||
           made_with_undercut(p.drawing, k) || !can_face_ring(p, front, e, end))
         continue;
-      work.shoulders.push_back(k);
-      const bool enough_wall = cuts_edge_in_stock(p, setups, s, e);
-      if (enough_wall) work.before_stock.push_back(k);
-      if (!enough_wall || !p.face_edges_in_stock) work.shoulders.pop_back();
+      if (!wall_takes_corners(p, e, front, end)) continue;
+      work.before_stock.push_back(k);
+      if (p.face_edges_in_stock) work.shoulders.push_back(k);
     }
   }
 }
