@@ -148,10 +148,11 @@ std::vector<Point> corrected(const Site& site, const Side& side, const Surface& 
   return all;
 }
 
-std::vector<Point> own_line(const Site& site, const Side& side, const Surface& s,
-                            double left_mm) {
-  if (!(left_mm > 0))
-    return with_front(with_its_undercut(corrected(site, side, s), s), s);
+std::vector<Point> finished_line(const Site& site, const Side& side, const Surface& s) {
+  return with_front(with_its_undercut(corrected(site, side, s), s), s);
+}
+
+std::vector<Point> roughed_line(const Surface& s, double left_mm) {
   std::vector<Point> line{{s.h0 + left_mm, s.z0}, {s.h1 + left_mm, s.z1}};
   return s.front ? chamfered(std::move(line), part::roughed(*s.front)) : line;
 }
@@ -161,7 +162,7 @@ std::size_t edge_of_front(const Surface& s) { return s.front->round ? kFacets + 
 std::optional<Arc> rounding(const Site& site, const Side& side, const Surface& s,
                             double re_mm) {
   if (!s.front || !s.front->round) return std::nullopt;
-  const auto line = own_line(site, side, s, 0);
+  const auto line = finished_line(site, side, s);
   const Point &from = line[0], &to = line[edge_of_front(s)];
   return tip_arc({from, to, {from.h_mm, to.z_mm}, true}, re_mm);
 }

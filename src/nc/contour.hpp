@@ -13,11 +13,12 @@ std::vector<Point> corrected(const Site& site, const Side& side, const Surface& 
 /// A line that ends with an undercut before the shoulder at z.
 std::vector<Point> with_undercut(std::vector<Point> line, const part::Undercut& undercut,
                                  double z_mm);
-/// The line of a pass over an element that leaves a thickness: it begins with the chamfer at
-/// its front; with nothing left it is the finished line, which ends with its undercut.  A
-/// rounded edge is a polygon that touches it from outside; roughing leaves it a chamfer.
-std::vector<Point> own_line(const Site& site, const Side& side, const Surface& s,
-                            double left_mm);
+/// The line of the pass that finishes an element, from the chamfer at its front to its
+/// undercut.  A rounded edge is a polygon that touches it from outside.
+std::vector<Point> finished_line(const Site& site, const Side& side, const Surface& s);
+/// That of a pass which leaves a thickness on the nominal element: of a rounded edge it
+/// leaves a chamfer.
+std::vector<Point> roughed_line(const Surface& s, double left_mm);
 /// Index in a finished line at which the chamfer at its front ends.
 std::size_t edge_of_front(const Surface& s);
 /// The way of the tip around the rounded edge at the front of a surface; none without one.

@@ -49,7 +49,10 @@ void drill(Site& site, const OperationPlan& o, const FixedTool& tool) {
   site.inner.stock_h = -D / 2;
   for (auto& s : site.inner.items) {
     const auto& bore = site.part.drawing.inner[s.index];
-    if (part::is_hole(bore) && bore.from == end) s.stock = false;
+    if (part::is_hole(bore) && bore.from == end) {
+      s.stock = false;
+      s.finished = true;
+    }
   }
 }
 
@@ -284,7 +287,7 @@ void round_edge(Site& site, const Place& p, const Arc& way) {
 // Along the chamfer at the front of an element, or around its edge, the deepest cut last.
 void chamfer(Site& site, const OperationPlan& o, const FixedTool& tool, const Place& p) {
   const auto& s = p.surface();
-  const auto line = own_line(site, p.side, s, 0);
+  const auto line = finished_line(site, p.side, s);
   const auto n = normal(line[0], line[1]);
   const auto round = rounding(site, p.side, s, tool.re_mm);
   double left = s.front->radial_mm;

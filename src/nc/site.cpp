@@ -12,24 +12,15 @@ namespace turnwright::nc {
 
 using planning::SetupWork;
 
-namespace {
-
-// From the radius that is drawn to the middle of its limits; none of what is cut into its
-// blank later.
-double to_middle_mm(const part::Drawing& d, const std::string& element) {
-  if (part::has_cut(d, element)) return 0;
-  for (const auto& t : d.tolerances)
-    if (t.kind == part::ToleranceKind::diameter && t.of == element && t.limits)
-      return (t.limits->lower_mm + t.limits->upper_mm) / 4;
-  return 0;
-}
-
-}  // namespace
-
 double moved_mm(const Site& site, const std::string& surface) {
   for (const auto& o : site.plan.offsets)
-    if (o.on == surface) return o.offset_mm + to_middle_mm(site.part.drawing, surface);
-  return to_middle_mm(site.part.drawing, surface);
+    if (o.on == surface)
+      return o.offset_mm + planning::to_middle_mm(site.part.drawing, surface);
+  return planning::to_middle_mm(site.part.drawing, surface);
+}
+
+double middle_h(const part::Drawing& drawing, const Side& side, const Surface& s) {
+  return side.sign * planning::to_middle_mm(drawing, s.id);
 }
 
 double Side::top(const Surface& s) const { return std::max(top0(s), top1(s)); }
@@ -91,8 +82,11 @@ Site::Site(const planning::PreparedPart& part_, const planning::ProcessPlan& pla
              ? side.items.back().faced_undercut
              : side.items.back().undercut) =
             planning::undercut_behind(part, setup, {bore, i});
-      if (auto& s = side.items.back(); done[i] && part::is_groove(e))
-        s.h0 = s.h1 = side.sign * e.cut->drawn.left_mm / 2;
+      auto& s = side.items.back();
+      if (!done[i]) continue;
+      s.finished = true;
+      s.left = middle_h(part.drawing, side, s);
+      if (part::is_groove(e)) s.h0 = s.h1 = side.sign * e.cut->drawn.left_mm / 2;
     }
     std::sort(side.items.begin(), side.items.end(),
               [](const Surface& x, const Surface& y) { return x.z0 > y.z0; });

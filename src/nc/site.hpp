@@ -36,10 +36,11 @@ struct Surface {
   double z0 = 0, h0 = 0, z1 = 0, h1 = 0;
   bool stock = true;   ///< not cut yet
   double stock_h = 0;  ///< outside: largest height of the uncut stock there
-  double left = 0;     ///< thickness that the last pass has left on it
+  double left = 0;     ///< that the last pass has left above its nominal line
   std::optional<part::Chamfer> front = {}, back = {};  ///< chamfers, drawn at z0 and z1
   /// Before the wall at z1: cut by the last pass, or by the facing of the wall.
   std::optional<part::Undercut> undercut = {}, faced_undercut = {};
+  bool finished = false;  ///< has its drawn contour
 };
 
 /// Outside or in the bores.
@@ -128,5 +129,7 @@ const Surface& surface_of(const Site& site, const std::string& id);
 /// the middle of the size's limits, plus the tool offset that the plan gives there.  It
 /// counts on the radius; of a face, along the part's axis.
 double moved_mm(const Site& site, const std::string& surface);
+/// Distance of an element's height in the middle of its size's limits from the drawn one.
+double middle_h(const part::Drawing& drawing, const Side& side, const Surface& element);
 
 }  // namespace turnwright::nc

@@ -143,7 +143,8 @@ struct Pass {
 };
 
 std::vector<Point> contour(const Pass& p) {
-  auto line = own_line(p.site, p.side, p.surface(), p.last ? 0 : p.left_mm);
+  auto line = p.last ? finished_line(p.site, p.side, p.surface())
+                     : roughed_line(p.surface(), p.left_mm);
   // Roughing begins above what stands on the element in front.
   if (p.last || !p.surface().front || p.k == 0) return line;
   const double floor = p.side.top1(p.side.items[p.k - 1]);
@@ -169,7 +170,8 @@ std::vector<Point> up_wall(const Point& a, const Normal& m, const Point& b,
 // tool follows its minor edge, which touches the edge of the higher surface.
 std::vector<Point> crossing(const Pass& p, std::size_t k) {
   const auto &s = p.side.items[k], &t = p.side.items[k + 1];
-  const auto from = own_line(p.site, p.side, s, 0), to = own_line(p.site, p.side, t, 0);
+  const auto from = finished_line(p.site, p.side, s),
+             to = finished_line(p.site, p.side, t);
   const auto m = normal(from[from.size() - 2], from.back()), n = normal(to[0], to[1]);
   const double r = p.re_mm;
   const bool rises = to[0].h_mm > from.back().h_mm;
@@ -198,7 +200,7 @@ double lost_mm(const Pass& p) {
 bool begins_on_finished(const Pass& p) {
   if (p.k == 0) return false;
   const auto &s = p.side.items[p.k - 1], &t = p.surface();
-  return !s.stock && s.left < kSame_mm && std::abs(s.z1 - t.z0) < kSame_mm &&
+  return s.finished && std::abs(s.z1 - t.z0) < kSame_mm &&
          std::abs(s.h1 - t.h0) < kStands_mm;
 }
 
@@ -340,12 +342,12 @@ void leave_stock(const Pass& p, std::vector<Point>& way) {
 // Goes up a wall and along the chamfer of the element behind it, which another setup
 // makes; through stock on that element the tool is then drawn out.
 void over_edge(const Pass& p, const Surface& s, std::vector<Point>& way) {
-  const auto line = own_line(p.site, p.side, s, 0);
+  const auto line = finished_line(p.site, p.side, s);
   const auto edge = edge_of_front(s);
   const auto front =
       tips({line.begin(), line.begin() + static_cast<std::ptrdiff_t>(edge) + 1}, p.re_mm);
   const auto n = normal(line[edge - 1], line[edge]);
-  const auto own = own_line(p.site, p.side, p.surface(), 0);
+  const auto own = finished_line(p.site, p.side, p.surface());
   const auto m = normal(own[own.size() - 2], own.back());
   const auto over = up_wall(own.back(), m, line[0], normal(line[0], line[1]), p.re_mm);
   if (p.surface().z1 == s.z0) way.back() = over[0];
@@ -440,7 +442,7 @@ Way way_of(const Pass& p) {
 // shoulder, back to that.
 void up_undercut(const Pass& p, const part::Undercut& u, double z) {
   const auto way = planning::undercut_way(u, p.re_mm);
-  const auto line = tips(own_line(p.site, p.side, p.surface(), 0), p.re_mm);
+  const auto line = tips(finished_line(p.site, p.side, p.surface()), p.re_mm);
   const auto& floor = line[line.size() - 2];
   const double h = floor.h_mm;
   if (floor.z_mm < z) p.site.to(Kind::feed, p.side, floor);
@@ -527,6 +529,7 @@ void pass(const Pass& p) {
   if (!p.goes_on()) p.site.lift(p.side);
   s.stock = false;
   s.left = p.left_mm;
+  s.finished = p.last;
 }
 
 // A facing pass over contact points, which are ordered from the axis outwards; the tool
@@ -574,7 +577,7 @@ std::vector<Point> with_edge(const Site& site, const Side& side,
                              std::vector<Point> contact, std::size_t k, double re_mm) {
   const auto* s = edge_to_cut(site, side, k);
   if (!s) return contact;
-  const auto line = own_line(site, side, *s, 0);
+  const auto line = finished_line(site, side, *s);
   const auto edge = edge_of_front(*s);
   const auto n = normal(line[edge - 1], line[edge]);
   const double top = contact.back().h_mm;
@@ -734,6 +737,20 @@ std::optional<std::string> entered_again(const Site& site, std::size_t i) {
   return std::nullopt;
 }
 
+// Thickness [mm] above the nominal line of element k that roughing leaves where it is planned
+// to leave `left_mm` above the programmed one.  It never goes below a finished surface beside
+// it that is drawn as high or lower, but has other limits.
+double above_nominal_mm(const Site& site, const Side& side, std::size_t k,
+                        double left_mm) {
+  const auto& s = side.items[k];
+  double least = left_mm + middle_h(site.part.drawing, side, s);
+  for (const auto& t : side.items) {
+    if (std::max(t.h0, t.h1) > s.h0 + kSame_mm) continue;
+    for (const auto& p : corrected(site, side, t)) least = std::max(least, p.h_mm - s.h0);
+  }
+  return least;
+}
+
 void turn(Site& site, std::size_t operation) {
   const auto& o = site.answer().operations[operation];
   auto& side = site.side(is_bore(o.kind));
@@ -748,7 +765,9 @@ void turn(Site& site, std::size_t operation) {
     for (std::size_t i = 0; i < o.passes.size(); ++i) {
       left -= o.passes[i].ap_mm;
       const bool last = finishes && i + 1 == o.passes.size();
-      pass({site, side, operation, k, o.passes[i].ap_mm, last ? 0 : left,
+      pass({site, side, operation, k, o.passes[i].ap_mm,
+            last ? middle_h(site.part.drawing, side, s)
+                 : above_nominal_mm(site, side, k, left),
             corner_mm(site, o), last,
             last ? std::nullopt
                  : planning::reaches_stock_z(outline, static_cast<int>(i),

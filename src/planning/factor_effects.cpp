@@ -17,11 +17,23 @@ bool finishes(OperationKind kind) {
   return kind == OperationKind::finish || kind == OperationKind::bore_finish;
 }
 
-// The request with the plan's own clampings and conditions, and without tolerances, so that
-// nothing is corrected.
+// Sizes alone, made where they are, within limits so wide that nothing is corrected.
+std::vector<part::Tolerance> wide_sizes(const std::vector<part::Tolerance>& tolerances) {
+  constexpr double kWide_mm = 10;
+  std::vector<part::Tolerance> all;
+  for (auto t : tolerances) {
+    if (t.kind != part::ToleranceKind::diameter || !t.limits) continue;
+    const double middle = (t.limits->lower_mm + t.limits->upper_mm) / 2;
+    t.limits = part::Limits{middle - kWide_mm, middle + kWide_mm};
+    all.push_back(std::move(t));
+  }
+  return all;
+}
+
+// The request with the plan's own clampings and conditions.
 PlanRequest as_planned(const PlanRequest& part, const ProcessPlan& plan) {
   PlanRequest r = part;
-  r.drawing.tolerances.clear();
+  r.drawing.tolerances = wide_sizes(part.drawing.tolerances);
   r.shop.first_part_gauged = false;
   r.milled.clear();
   r.operations.emplace();

@@ -6,6 +6,7 @@
 
 #include "base/say.hpp"
 #include "planning/clamping/made_surfaces.hpp"
+#include "planning/paths/programmed_faces.hpp"
 #include "turnwright/review/review.hpp"
 
 namespace turnwright::review {
@@ -149,9 +150,10 @@ class Reconstructing {
     if (t == part_.tools.end() || e.left_mm != e.right_mm || count(last) != 1)
       return reached;
     const double least = catalogue::least_depth_mm(*t);
-    const double left = (in_bore ? -1 : 1) * (reached - e.left_mm / 2);
+    const double made = e.left_mm / 2 + planning::to_middle_mm(part_.drawing, e.id);
+    const double left = (in_bore ? -1 : 1) * (reached - made);
     if (!(left < least && left > (1 - kKept) * least)) return reached;
-    return e.left_mm / 2 + (in_bore ? -1 : 1) * least;
+    return made + (in_bore ? -1 : 1) * least;
   }
 
   template <class Element>

@@ -72,7 +72,8 @@ TEST_P(CutSimulationOfRandomParts, LeavesTheDrawing) {
   const int parts = parts_to_try(100);
   int made = 0;
   for (int seed = 1 + GetParam(); seed <= parts; seed += kSideBySide) {
-    const auto document = RandomPart(static_cast<std::uint32_t>(seed)).document();
+    const auto document =
+        RandomPart(static_cast<std::uint32_t>(seed), SizeLimits::aside).document();
     SCOPED_TRACE(document);
     const auto p = planned(document);
     if (p.plan.status != planning::PlanStatus::ok) continue;

@@ -1,5 +1,6 @@
 #pragma once
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -18,10 +19,17 @@ inline int parts_to_try(int otherwise) {
   return given ? std::atoi(given) : otherwise;
 }
 
+/// Where the limits of their sizes lie: fits from the size on, or now about it, below or
+/// above it; beside arcs, which stand as drawn, about it.
+enum class SizeLimits { fits, aside };
+
 class RandomPart {
  public:
-  explicit RandomPart(std::uint32_t seed)
-      : random_(seed), tube_(below(3) == 0), bored_(tube_ || below(4) == 0) {}
+  explicit RandomPart(std::uint32_t seed, SizeLimits limits = SizeLimits::fits)
+      : size_limits_(limits),
+        random_(seed),
+        tube_(below(3) == 0),
+        bored_(tube_ || below(4) == 0) {}
 
   nlohmann::json document() {
     outer();
@@ -91,10 +99,15 @@ class RandomPart {
       if (i > 0) between(bodies[i - 1].D_mm, b.D_mm);
       json e{{"diameter_mm", b.D_mm}};
       if (b.thread) e["pitch_mm"] = 1 + 0.5 * below(3);
-      if (!b.thread && below(2)) e["fit"] = "h9";
+      if (!b.thread && below(2)) e.update(limits("h9", i));
       if (!b.thread && below(2)) e["Ra_um"] = 3.2;
       add(b.thread ? "thread" : "cylinder", 14 + below(22), e);
     }
+    for (std::size_t i = 0; i < outer_.size(); ++i)
+      for (const std::size_t beside : {i - 1, i + 1})
+        if (outer_[i]["kind"] == "arc" && beside < outer_.size() &&
+            outer_[beside].contains("limits_mm"))
+          outer_[beside].update(limits("h9", 0));
   }
 
   void between(double a, double b) {
@@ -157,6 +170,13 @@ class RandomPart {
     return all;
   }
 
+  json limits(const char* fit, std::size_t i) const {
+    if (size_limits_ == SizeLimits::fits) return {{"fit", fit}};
+    constexpr std::array<std::pair<double, double>, 3> kAside_mm{
+        {{-0.05, 0.05}, {-0.25, -0.1}, {0.1, 0.3}}};
+    return {{"limits_mm", kAside_mm[i % kAside_mm.size()]}};
+  }
+
   // A through hole, stepped from its ends towards the inside.
   json inner() {
     json all = json::array();
@@ -167,7 +187,7 @@ class RandomPart {
              {"length_mm", length_mm},
              {"diameter_mm", D_mm}};
       if (b["kind"] == "thread") b["pitch_mm"] = 1.5;
-      if (b["kind"] == "cylinder" && below(2)) b["fit"] = "H9";
+      if (b["kind"] == "cylinder" && below(2)) b.update(limits("H9", all.size()));
       all.push_back(b);
     };
     const int left = below(2) ? 10 + below(10) : 0, rest = length_mm_ - left;
@@ -215,6 +235,7 @@ class RandomPart {
     return all;
   }
 
+  SizeLimits size_limits_;
   std::mt19937 random_;
   bool tube_, bored_;
   json outer_ = json::array();

@@ -516,8 +516,9 @@ TEST(Plan, ABoreComesOutNarrowerByWhatWallAndBarYield) {
   const auto& o = operation(r, "s1-bore-finish-b");
   ASSERT_EQ(o.passes.size(), 1u);
   const auto& pass = o.passes[0];
-  EXPECT_NEAR(pass.ap_mm, 2, 1e-12);
-  EXPECT_NEAR(pass.n_rpm, 1000 * pass.vc_m_min / (units::kPi * 40), 1e-9 * pass.n_rpm);
+  const double middle = 0.025 / 2, D = 40 + middle, ap = 2 + middle / 2;  // of 40 H7
+  EXPECT_NEAR(pass.ap_mm, ap, 1e-12);
+  EXPECT_NEAR(pass.n_rpm, 1000 * pass.vc_m_min / (units::kPi * D), 1e-9 * pass.n_rpm);
 
   const auto& m = p.machine;
   const auto at = [&](const catalogue::RootCompliance& root) {
@@ -533,13 +534,12 @@ TEST(Plan, ABoreComesOutNarrowerByWhatWallAndBarYield) {
   const auto cut = cutting::cut_of(p.material, tool);
   double left = 0;
   for (int k = 0; k < 200; ++k) {
-    const auto F = cutting::forces_N(cut, 2 - left, pass.f_mm_rev);
+    const auto F = cutting::forces_N(cut, ap - left, pass.f_mm_rev);
     const double slip = (tangential.ww + bar.ww + f * f * bar.twist) * F.Fc_N;
     left = (radial.ww + bar.ww + m.tool_rr_mm_N) * F.Fp_N +
-           (radial.wp * 20 - bar.wp * f) * F.Ff_N - m.tool_rt_mm_N * F.Fc_N -
-           slip * slip / 40;
+           (radial.wp * D / 2 - bar.wp * f) * F.Ff_N - m.tool_rt_mm_N * F.Fc_N -
+           slip * slip / D;
   }
-  const double middle = 0.025 / 2;  // of 40 H7
   EXPECT_NEAR(tolerance(r, "b:diameter").predicted_mm[0], middle - 2 * left, 1e-10);
 }
 
@@ -711,22 +711,46 @@ TEST(Plan, ACorrectedPathLeavesNothing) {
 TEST(Predict, WhatIsUsedUpWithoutTheCutStillSaysHowManyPartsConform) {
   auto d = pin();
   d["budget"]["repeatability_um"] = 2;
-  d["outer"][1]["limits_mm"] = {-0.1, 0};
+  d["outer"][1]["limits_mm"] = {-0.05, 0.05};
   d = as_planned(d, certified_plan(d));
   const auto size = [&](double half_mm) {
-    d["outer"][1]["limits_mm"] = {-2 * half_mm, 0};
+    d["outer"][1]["limits_mm"] = {-half_mm, half_mm};
     const auto r = predict(part_to_predict(d));
     return tolerance(r, "d2:diameter");
   };
   const auto loose = size(0.05), tight = size(0.01);  // 2 (2 3 2 um) + 1 um of 20 um
   EXPECT_EQ(loose.verdict, Verdict::met);
   EXPECT_EQ(tight.verdict, Verdict::not_met);
-  const double low = (loose.predicted_mm[0] + 0.05) * 1000,
-               high = (loose.predicted_mm[1] + 0.05) * 1000;
+  const double low = loose.predicted_mm[0] * 1000, high = loose.predicted_mm[1] * 1000;
   const double sigma =
       std::hypot(4, force_spread(part_to_predict(d)) * std::max(high, -low));
   const auto below = [&](double um) { return std::erf(um / sigma / std::sqrt(2.0)) / 2; };
   EXPECT_NEAR(tight.P_conform, below(9.5 - high) - below(-9.5 - low), 1e-9);
+}
+
+// Stock is taken off down to the middle of the limits, 0.1 mm below what is drawn on the
+// radius; given depths may lead to either or to a limit, and the last pass takes the rest.
+TEST(Predict, GivenDepthsLeadToTheDrawnSizeOrIntoItsLimits) {
+  auto d = pin();
+  d["outer"][1]["limits_mm"] = {-0.3, -0.1};
+  const auto planned_part = certified_plan(d);
+  const double asked = operation(planned_part, "s1-finish-d2").passes[0].ap_mm;
+  const auto given = as_planned(d, planned_part);
+  const auto with = [&](double deeper_mm) {
+    auto changed = given;
+    for (auto& o : changed["operations"])
+      if (o["id"] == "s1-finish-d2") o["conditions"]["ap_mm"] = asked + deeper_mm;
+    return predict(part_to_predict(changed));
+  };
+  double sum = asked;
+  for (const auto& pass : operation(planned_part, "s1-rough-d2").passes)
+    sum += pass.ap_mm;
+  EXPECT_NEAR(sum, (42 - 32) / 2.0 + 0.1, 1e-12);
+  for (const double deeper : {-0.1, -0.05, 0.0, 0.05})
+    EXPECT_NEAR(operation(with(deeper), "s1-finish-d2").passes[0].ap_mm, asked, 1e-12)
+        << deeper;
+  EXPECT_EQ(with(-0.11).status, PlanStatus::infeasible);
+  EXPECT_EQ(with(0.11).status, PlanStatus::infeasible);
 }
 
 TEST(Predict, APlansConditionsGiveWhatThePlanSays) {

@@ -98,15 +98,17 @@ const Cut* cut_of(const ReviewedSetup& s, const OperationPlan& o) {
   return found;
 }
 
-/// A plan reckons with nominal sizes, its program cuts to the middle of the limits with
-/// what the plan corrects: a finishing pass is deeper by what the program moves the surface.
+/// A plan takes stock off down to the middle of the limits, its program cuts with what the
+/// plan corrects: a finishing pass is deeper by what the program moves the surface.
 double moved_mm(const Reviewed& r, const Planned& p, const OperationPlan& o) {
   const auto size = std::ranges::find(r.review.sizes, o.on[0], &MadeSize::on);
   const bool finishes = o.kind == planning::OperationKind::finish ||
                         o.kind == planning::OperationKind::bore_finish;
   if (size == r.review.sizes.end() || !finishes) return 0;
   const auto e = part::extent(p.part.drawing, o.on[0]);
-  return (size->nominal_mm - size->diameter_mm) / 2 * (e->inner ? -1 : 1);
+  const double middle =
+      size->limits ? (size->limits->lower_mm + size->limits->upper_mm) / 2 : 0;
+  return (size->nominal_mm + middle - size->diameter_mm) / 2 * (e->inner ? -1 : 1);
 }
 
 double force_N(const Planned& p, const OperationPlan& o, double ap_mm) {

@@ -9,6 +9,7 @@
 
 #include "edges.hpp"
 #include "planning/clamping/positions.hpp"
+#include "planning/paths/programmed_faces.hpp"
 #include "planning/values/surface_request.hpp"
 #include "turnwright/base/dual.hpp"
 #include "turnwright/base/interval.hpp"
@@ -35,24 +36,14 @@ struct Item {
   double rad() const { return std::atan2(h1 - h0, z0 - z1); }
 };
 
-// Distances [mm] from the drawn radii of elements to the middles of their sizes' limits,
-// where programs cut them.
-std::unordered_map<std::string_view, double> to_middles_mm(const part::Drawing& d) {
-  std::unordered_map<std::string_view, double> all;
-  for (const auto& t : d.tolerances)
-    if (t.kind == part::ToleranceKind::diameter && t.limits)
-      all.try_emplace(t.of, (t.limits->lower_mm + t.limits->upper_mm) / 4);
-  return all;
-}
-
 std::vector<Item> items_of(const PreparedPart& p, std::size_t setup, bool inner) {
   const auto& d = p.drawing;
   const bool left = p.setups[setup].hold == part::End::left;
   const double sign = left ? 1 : -1, out = inner ? -1 : 1, free = free_z_mm(p, setup);
   const auto to_middles = to_middles_mm(d);
-  const auto by_mm = [&](const auto& e) {  // 0 of one with a groove, thread or arc
+  const auto by_mm = [&](const auto& e) {
     const auto found = to_middles.find(e.id);
-    return e.cut || found == to_middles.end() ? 0 : found->second;
+    return found == to_middles.end() ? 0 : found->second;
   };
   std::vector<Item> all;
   const auto add = [&](const auto& e, std::size_t i, double left_z) {

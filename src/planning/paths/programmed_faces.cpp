@@ -16,6 +16,14 @@ bool between_ends(const Tolerance& t) {
   return is_end(t.between[0]) && is_end(t.between[1]);
 }
 
+bool is_size(const Tolerance& t) {
+  return t.kind == part::ToleranceKind::diameter && t.limits;
+}
+
+double radius_to_middle_mm(const part::Limits& size) {
+  return (size.lower_mm + size.upper_mm) / 4;
+}
+
 // The faces of a length from left to right.
 struct Length {
   std::string a, b;
@@ -106,6 +114,31 @@ double off_middle_mm(const part::Drawing& d, const part::Tolerance& t) {
   const auto moved = faces_moved_mm(d);
   const auto l = length_of(d, t);
   return moved_mm(moved, l.b) - moved_mm(moved, l.a) - l.middle_mm;
+}
+
+std::unordered_map<std::string_view, double> to_middles_mm(const part::Drawing& d) {
+  std::unordered_map<std::string_view, double> all;
+  for (const auto& t : d.tolerances)
+    if (is_size(t)) all.try_emplace(t.of, radius_to_middle_mm(*t.limits));
+  const auto erase_cut = [&](const auto& elements) {
+    for (const auto& e : elements)
+      if (e.cut) all.erase(e.id);
+  };
+  erase_cut(d.outer);
+  erase_cut(d.inner);
+  return all;
+}
+
+const part::Limits* turned_to_limits(const part::Drawing& d, const std::string& element) {
+  if (part::has_cut(d, element)) return nullptr;
+  for (const auto& t : d.tolerances)
+    if (is_size(t) && t.of == element) return &*t.limits;
+  return nullptr;
+}
+
+double to_middle_mm(const part::Drawing& d, const std::string& element) {
+  const auto* limits = turned_to_limits(d, element);
+  return limits ? radius_to_middle_mm(*limits) : 0;
 }
 
 }  // namespace turnwright::planning

@@ -1,10 +1,12 @@
 #pragma once
 #include <map>
 #include <string>
+#include <string_view>
+#include <unordered_map>
 
 #include "planning/clamping/made_surfaces.hpp"
 
-/// Where programs cut the faces of a part beside where they are drawn.
+/// Where programs cut the surfaces of a part beside where they are drawn.
 namespace turnwright::planning {
 
 /// Displacements [mm] along the part's axis, to the right, of the shoulders that lengths are
@@ -29,5 +31,15 @@ double end_moved_mm(const MovedFaces& moved, const part::Drawing& drawing,
 /// whose lengths cannot all be in their middles; none of a length between both ends, which
 /// follows from how the part is set up.
 double off_middle_mm(const part::Drawing& drawing, const part::Tolerance& length);
+
+/// Distances [mm] of the radii at which programs turn elements, by their ids, from the drawn
+/// ones: to the middles of their sizes' limits.  Elements that are not in it are turned as
+/// drawn, and so are those with a groove, thread or arc, which is cut into a blank.
+std::unordered_map<std::string_view, double> to_middles_mm(const part::Drawing& drawing);
+/// The limits in whose middle programs turn an element; none of one turned as drawn.
+const part::Limits* turned_to_limits(const part::Drawing& drawing,
+                                     const std::string& element);
+/// Distance [mm] of its radius there from the drawn one.
+double to_middle_mm(const part::Drawing& drawing, const std::string& element);
 
 }  // namespace turnwright::planning

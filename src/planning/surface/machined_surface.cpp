@@ -15,6 +15,7 @@
 #include "planning/operation/chebyshev.hpp"
 #include "planning/operation/evaluate.hpp"
 #include "planning/paths/edges.hpp"
+#include "planning/paths/programmed_faces.hpp"
 #include "turnwright/deflection/rest.hpp"
 #include "turnwright/deflection/thrust.hpp"
 
@@ -234,10 +235,15 @@ void MachinedSurface::take(const OuterOrInner& e, std::size_t index, double left
   index_ = index;
   low_ = left_z_mm;
   high_ = left_z_mm + e.length_mm;
-  left_mm_ = e.left_mm;
-  right_mm_ = e.right_mm;
-  D_small_ = std::min(e.left_mm, e.right_mm);
-  D_large_ = std::max(e.left_mm, e.right_mm);
+  if (const auto* limits = turned_to_limits(plan_->drawing, e.id)) {
+    const double off_drawn = std::abs(limits->lower_mm + limits->upper_mm) / 4;
+    depth_slack_mm_ = std::max(off_drawn, (limits->upper_mm - limits->lower_mm) / 4);
+  }
+  const double to_middle = 2 * to_middle_mm(plan_->drawing, e.id);
+  left_mm_ = e.left_mm + to_middle;
+  right_mm_ = e.right_mm + to_middle;
+  D_small_ = std::min(left_mm_, right_mm_);
+  D_large_ = std::max(left_mm_, right_mm_);
   Ra_um_ = e.Ra_um.value_or(0);
   Rz_um_ = e.Rz_um.value_or(0);
 }
@@ -352,6 +358,9 @@ std::optional<Chain> MachinedSurface::chain(const Recipe& recipe, const Economy&
   c.weights = economy;
   const double nr = recipe.rough_passes, nf = recipe.finish_passes;
   double stock = stock_;
+  const auto adds_up = [&](double given) {
+    return std::abs(given - stock) <= depth_slack_mm_ + 1e-6 * stock;
+  };
   if (recipe.rough) c.operations.push_back(operation(recipe, false, economy));
   if (recipe.finish) c.operations.push_back(operation(recipe, true, economy));
   for (const auto& o : c.operations)
@@ -374,8 +383,7 @@ std::optional<Chain> MachinedSurface::chain(const Recipe& recipe, const Economy&
     if (fixed_.rough.ap_mm)
       c.a.lower = c.a.upper = (stock - nr * *fixed_.rough.ap_mm) / nf;
     if (fixed_.finish.ap_mm && fixed_.rough.ap_mm &&
-        std::abs(nr * *fixed_.rough.ap_mm + nf * *fixed_.finish.ap_mm - stock) >
-            1e-6 * stock)
+        !adds_up(nr * *fixed_.rough.ap_mm + nf * *fixed_.finish.ap_mm))
       return {};
     if (a_mm) c.a.lower = c.a.upper = *a_mm;
     if (!(c.a.lower > 0 && c.a.lower <= c.a.upper && c.a.upper * nf < stock)) return {};
@@ -386,7 +394,7 @@ std::optional<Chain> MachinedSurface::chain(const Recipe& recipe, const Economy&
   } else {
     const double depth = stock / (nr + nf);
     const auto& want = nr > 0 ? fixed_.rough.ap_mm : fixed_.finish.ap_mm;
-    if (want && std::abs(*want - depth) > 1e-6 * depth) return {};
+    if (want && !adds_up((nr + nf) * *want)) return {};
     rough = finish = {depth, 0};
     c.a.lower = c.a.upper = depth;
   }

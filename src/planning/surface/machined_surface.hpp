@@ -243,6 +243,9 @@ class MachinedSurface {
   GivenConditions fixed_;
   std::size_t index_ = 0;  // outer or inner element
   double low_ = 0, high_ = 0, stock_ = 0;
+  /// By which given depths may miss the stock: they lead to the drawn size or into its
+  /// limits, and the last pass to their middle.
+  double depth_slack_mm_ = 0;
   /// Thickness that a casting or forging has at least all over the element: the passes that
   /// finish take no more, so that they cut everywhere.
   std::optional<double> everywhere_mm_ = {};

@@ -1,0 +1,131 @@
+// Sizes are turned to the middles of their limits by passes that are as deep as planned.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "cut_simulation.hpp"
+
+namespace turnwright::nc {
+namespace {
+
+using namespace test;
+using nlohmann::json;
+
+json cylinder(const std::string& id, double diameter_mm, double length_mm,
+              double lower_mm, double upper_mm) {
+  return {{"id", id},
+          {"kind", "cylinder"},
+          {"diameter_mm", diameter_mm},
+          {"length_mm", length_mm},
+          {"limits_mm", {lower_mm, upper_mm}}};
+}
+
+json bush(const json& outer, const json& inner) {
+  auto d = json::parse(R"({
+    "format": "turnwright-part/1", "name": "Bush", "material": "C45",
+    "stock": {"kind": "tube", "outer_mm": 70, "inner_mm": 20, "length_mm": 64},
+    "machine": "lathe-medium", "damping_ratio": 0.4,
+    "setups": [{"hold": "left", "grip_mm": 15, "clampings": ["chuck"]},
+               {"hold": "right", "grip_mm": 15, "clampings": ["chuck"]}]})");
+  d["outer"] = outer;
+  d["inner"] = inner;
+  for (auto& e : d["inner"]) e["from"] = "right";
+  return d;
+}
+
+// Drawn at the middle of their limits or aside, sizes ask for the same cuts; bodies that
+// are drawn thinner by some tenths yield a little more.
+TEST(NcSizes, DrawnAtAnEndOfTheirLimitsHaveTheSameDepths) {
+  const auto& drawn = planned(bush(json::array({cylinder("d1", 65.9, 30, -0.1, 0.1),
+                                                cylinder("d2", 55.8, 30, -0.1, 0.1)}),
+                                   json::array({cylinder("b", 30.2, 60, -0.1, 0.1)})));
+  const auto& aside = planned(bush(
+      json::array({cylinder("d1", 66, 30, -0.2, 0), cylinder("d2", 56, 30, -0.3, -0.1)}),
+      json::array({cylinder("b", 30, 60, 0.1, 0.3)})));
+  ASSERT_EQ(drawn.plan.status, planning::PlanStatus::ok);
+  ASSERT_EQ(aside.plan.status, planning::PlanStatus::ok);
+  int turned = 0;
+  for (std::size_t s = 0; s < drawn.plan.setups.size(); ++s) {
+    const auto &a = drawn.plan.setups[s].operations, &b = aside.plan.setups[s].operations;
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      ASSERT_EQ(a[i].id, b[i].id);
+      ASSERT_EQ(a[i].passes.size(), b[i].passes.size()) << a[i].id;
+      for (std::size_t k = 0; k < a[i].passes.size(); ++k)
+        EXPECT_NEAR(a[i].passes[k].ap_mm, b[i].passes[k].ap_mm, 2e-3) << a[i].id;
+      turned += a[i].kind != planning::OperationKind::fixed;
+    }
+  }
+  EXPECT_GE(turned, 5);
+  EXPECT_NEAR(aside.plan.cost_per_part / drawn.plan.cost_per_part, 1, 1e-3);
+}
+
+// What roughing leaves of each element is what its finishing is planned to take.
+TEST(NcSizes, AreRoughedToThePlannedDepthAboveTheirMiddle) {
+  const auto& p = planned(bush(
+      json::array({cylinder("d1", 66, 30, -0.2, 0), cylinder("d2", 56, 30, -0.6, -0.4)}),
+      json::array({cylinder("b", 30, 60, 0.4, 0.6)})));
+  ASSERT_EQ(p.plan.status, planning::PlanStatus::ok);
+  const std::map<std::string, double> middle{{"d1", 32.95}, {"d2", 27.75}, {"b", 15.25}};
+  const auto made = programs(p.part, p.plan);
+  std::map<std::string, double> finishing;
+  for (const auto& s : p.plan.setups)
+    for (const auto& o : s.operations)
+      if (o.kind == planning::OperationKind::finish ||
+          o.kind == planning::OperationKind::bore_finish)
+        for (const auto& pass : o.passes) finishing[o.on[0]] += pass.ap_mm;
+  int compared = 0;
+  for (const auto& program : made.setups)
+    for (const auto& step : program.steps)
+      for (const auto& [on, radius] : middle) {
+        const bool bore = on == "b";
+        const auto of = (bore ? "-bore-rough-" : "-rough-") + on + ": ";
+        if (step.comments.empty() || step.comments[0].find(of) == std::string::npos)
+          continue;
+        double nearest = INFINITY;
+        for (const auto& m : step.moves)
+          if (m.kind == Move::Kind::feed)
+            nearest = std::min(nearest, (bore ? -1 : 1) * (m.x_mm - radius));
+        EXPECT_NEAR(nearest, finishing.at(on), 1e-6) << step.comments[0];
+        ++compared;
+      }
+  EXPECT_EQ(compared, 3);
+}
+
+// Drawn as one cylinder, or one bore, with limits further apart than finishing is deep:
+// roughing of the part with less material keeps off the other, on either side of it.
+TEST(NcSizes, RoughingKeepsOffALevelNeighbourWithOtherLimits) {
+  const std::array<std::pair<double, double>, 2> ways{{{0, -0.5}, {-0.5, 0}}};
+  for (const auto& [first, second] : ways) {
+    SCOPED_TRACE(first);
+    const auto& p =
+        planned(bush(json::array({cylinder("d1", 66, 30, first - 0.1, first),
+                                  cylinder("d2", 66, 30, second - 0.1, second)}),
+                     json::array({cylinder("a", 40, 30, -first, 0.1 - first),
+                                  cylinder("b", 40, 30, -second, 0.1 - second)})));
+    ASSERT_EQ(p.plan.status, planning::PlanStatus::ok);
+    const auto all = programs(p.part, p.plan);
+    auto findings = simulated(p, all);
+    std::erase_if(findings, [](const Finding& f) { return f.fault != Fault::gouge; });
+    EXPECT_EQ(listed(findings), "");
+  }
+}
+
+// The tool that faces the wall between them clears the narrower bore as it is made.
+TEST(NcSizes, ABoreFarBelowItsDrawnSizeIsClearedByRapids) {
+  auto d = bush(
+      json::array({cylinder("d1", 66, 30, -0.1, 0.1), cylinder("d2", 60, 30, -0.1, 0.1)}),
+      json::array({cylinder("a", 44, 20, 0, 0.2), cylinder("b", 34, 40, -0.9, -0.7)}));
+  d["tolerances"] = {{{"id", "depth"},
+                      {"kind", "length"},
+                      {"between", {"right", "a|b"}},
+                      {"limits_mm", {-0.05, 0.05}}}};
+  const auto& p = planned(d);
+  ASSERT_EQ(p.plan.status, planning::PlanStatus::ok);
+  auto findings = simulated(p, programs(p.part, p.plan));
+  std::erase_if(findings, [](const Finding& f) { return f.fault == Fault::again; });
+  EXPECT_EQ(listed(findings), "");
+}
+
+}  // namespace
+}  // namespace turnwright::nc
