@@ -174,8 +174,8 @@ std::vector<Point> crossing(const Pass& p, std::size_t k) {
              to = finished_line(p.site, p.side, t);
   const auto m = normal(from[from.size() - 2], from.back()), n = normal(to[0], to[1]);
   const double r = p.re_mm;
-  const bool rises = to[0].h_mm > from.back().h_mm;
-  if (t.h0 > s.h1 + kSame_mm && (rises || t.front))
+  const double rises_mm = to[0].h_mm - from.back().h_mm;
+  if (rises_mm > r || (t.h0 > s.h1 + kSame_mm && (rises_mm > 0 || t.front)))
     return up_wall(from.back(), m, to[0], n, r);
   const double falls = from.back().h_mm - to[0].h_mm, rises_rad = *p.tool().rises_rad;
   const double arc = r * (1 - std::cos(rises_rad));
@@ -299,10 +299,29 @@ double wall_stock_mm(const Pass& p, const Wall& w) {
   return 0;
 }
 
+// Height above which roughing keeps off the programmed surface of an element, at one of its
+// ends: where that is still to be finished, so that no mark of a rougher tool stays on it.
+double kept_h(const Site& site, const Side& side, const Surface& s, double drawn_h) {
+  constexpr double kMarks_mm = 0.05;
+  return drawn_h + middle_h(site.part.drawing, side, s) + (s.finished ? 0 : kMarks_mm);
+}
+
+// Whether the next element, drawn as high, stands above a roughing pass because of its
+// limits.
+bool steps_up_behind(const Pass& p) {
+  if (p.k + 1 >= p.side.items.size()) return false;
+  const auto &s = p.surface(), &next = p.side.items[p.k + 1];
+  return std::abs(next.h0 - s.h1) < kSame_mm && std::abs(next.z0 - s.z1) < kSame_mm &&
+         kept_h(p.site, p.side, next, next.h0) > s.h1 + p.left_mm;
+}
+
 // The pieces that end a pass over element k.
 std::vector<Piece> ends(const Pass& p, std::size_t k, const std::optional<Wall>& w) {
   std::vector<Piece> all;
-  if (p.last) all = drawn_behind(p.site, p.side, k);
+  if (p.last)
+    all = drawn_behind(p.site, p.side, k);
+  else if (steps_up_behind(p))
+    all.push_back(wall(p.surface().z1));
   if (!w) return all;
   const double stock = wall_stock_mm(p, *w);
   const auto& s = p.surface();
@@ -738,15 +757,21 @@ std::optional<std::string> entered_again(const Site& site, std::size_t i) {
 }
 
 // Thickness [mm] above the nominal line of element k that roughing leaves where it is planned
-// to leave `left_mm` above the programmed one.  It never goes below a finished surface beside
-// it that is drawn as high or lower, but has other limits.
-double above_nominal_mm(const Site& site, const Side& side, std::size_t k,
-                        double left_mm) {
+// to leave `left_mm` above the programmed one.  It comes in over what is in front, where its
+// minor edge rises, and stays above surfaces there that are drawn as high but have other
+// limits.
+double above_nominal_mm(const Site& site, const OperationPlan& o, const Side& side,
+                        std::size_t k, double left_mm) {
   const auto& s = side.items[k];
+  const double rises_from_z = s.z0 + kBefore_mm + 2 * corner_mm(site, o);
+  const double slope = std::tan(minor_edge_rad(site, o));
   double least = left_mm + middle_h(site.part.drawing, side, s);
-  for (const auto& t : side.items) {
-    if (std::max(t.h0, t.h1) > s.h0 + kSame_mm) continue;
-    for (const auto& p : corrected(site, side, t)) least = std::max(least, p.h_mm - s.h0);
+  for (std::size_t j = k; j-- > 0;) {
+    const auto &t = side.items[j], &next = side.items[j + 1];
+    if (std::abs(t.h1 - s.h0) > kSame_mm || std::abs(t.z1 - next.z0) > kSame_mm) break;
+    const double rise = slope * std::max(0.0, t.z1 - rises_from_z);
+    least = std::max(least, kept_h(site, side, t, t.h1) - s.h0 - rise);
+    if (t.h0 != t.h1) break;
   }
   return least;
 }
@@ -767,7 +792,7 @@ void turn(Site& site, std::size_t operation) {
       const bool last = finishes && i + 1 == o.passes.size();
       pass({site, side, operation, k, o.passes[i].ap_mm,
             last ? middle_h(site.part.drawing, side, s)
-                 : above_nominal_mm(site, side, k, left),
+                 : above_nominal_mm(site, o, side, k, left),
             corner_mm(site, o), last,
             last ? std::nullopt
                  : planning::reaches_stock_z(outline, static_cast<int>(i),

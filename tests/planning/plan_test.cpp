@@ -753,6 +753,18 @@ TEST(Predict, GivenDepthsLeadToTheDrawnSizeOrIntoItsLimits) {
   EXPECT_EQ(with(0.11).status, PlanStatus::infeasible);
 }
 
+TEST(Plan, StockThatDoesNotStandAboveTheMiddleOfLimitsIsTold) {
+  auto d = pin();
+  for (const double upper : {4.0, 4.1}) {
+    d["outer"][0]["limits_mm"] = {0, upper};
+    const auto r = certified_plan(d);
+    EXPECT_EQ(r.status, PlanStatus::infeasible);
+    ASSERT_EQ(r.conflicts.size(), 1u);
+    EXPECT_EQ(r.conflicts[0].sentence,
+              "d1: the stock does not stand above the middle of its limits");
+  }
+}
+
 TEST(Predict, APlansConditionsGiveWhatThePlanSays) {
   for (const auto* part_name : {"gearbox-input-shaft", "piston-rod", "spindle-nose"}) {
     const auto document = reference_part(part_name);

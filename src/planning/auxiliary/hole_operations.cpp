@@ -6,6 +6,7 @@
 #include "base/say.hpp"
 #include "planning/clamping/centre_clearance.hpp"
 #include "planning/paths/edges.hpp"
+#include "planning/paths/programmed_faces.hpp"
 #include "turnwright/base/units.hpp"
 
 namespace turnwright::planning {
@@ -67,13 +68,15 @@ Hole hole_from(const part::Drawing& d, part::End end) {
   double needed = 0;  // by reamers and taps
   for (const auto& e : d.inner) {
     h.rest_mm -= e.length_mm;
+    const double narrowest_mm =
+        std::min(e.left_mm, e.right_mm) + 2 * to_middle_mm(d, e.id);
     if (e.from != end) {
-      h.behind_mm = std::min({h.behind_mm, e.left_mm, e.right_mm});
+      h.behind_mm = std::min(h.behind_mm, narrowest_mm);
       continue;
     }
     if (h.first.empty()) h.first = e.id;
     h.depth_mm += e.length_mm;
-    h.least_mm = std::min({h.least_mm, e.left_mm, e.right_mm});
+    h.least_mm = std::min(h.least_mm, narrowest_mm);
     h.drilled_mm = part::is_hole(e) ? e.cut->drilled_mm : 0;
     if (part::is_hole(e))
       needed = std::max(needed, h.depth_mm + part::drilled_beyond_mm(*e.cut));

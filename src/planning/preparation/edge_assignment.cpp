@@ -10,6 +10,7 @@
 #include "planning/paths/approach.hpp"
 #include "planning/paths/edges.hpp"
 #include "planning/paths/pass_lengths.hpp"
+#include "planning/paths/programmed_faces.hpp"
 #include "planning/values/surface_request.hpp"
 
 namespace turnwright::planning {
@@ -17,9 +18,10 @@ namespace {
 
 using part::End;
 
+// As programs make it.
 double end_radius_mm(const part::Drawing& d, const Element& e, End end) {
   const auto of = [&](const auto& x) {
-    return (end == End::left ? x.left_mm : x.right_mm) / 2;
+    return (end == End::left ? x.left_mm : x.right_mm) / 2 + to_middle_mm(d, x.id);
   };
   return e.inner ? of(d.inner[e.index]) : of(d.outer[e.index]);
 }

@@ -45,6 +45,8 @@ std::string why_none(const PreparedPart& plan, const MachinedSurface& f) {
                plan.material.id);
   if (const auto asked = f.edges_asked(); !asked.empty())
     return say(": no tool that could finish it fits and has {}", asked);
+  if (!f.is_shoulder() && !(f.stock_mm() > 0))
+    return tr(": the stock does not stand above the middle of its limits");
   if (fixed.rough.ap_mm || fixed.finish.ap_mm)
     return say(": the given passes do not add up to the {} mm to take off",
                readable(f.stock_mm()));

@@ -373,6 +373,7 @@ std::optional<Chain> MachinedSurface::chain(const Recipe& recipe, const Economy&
   if (!c.operations.empty() && !ends_before_jaws(*c.operations.back().tool)) return {};
   // The stock on a shoulder is taken as the least depth of cut of the tool that faces it.
   if (is_shoulder()) stock = c.operations.back().ap.lower;
+  if (!(stock > 0)) return {};
 
   Affine rough, finish{0, 1};
   if (nr > 0 && nf > 0) {

@@ -408,6 +408,18 @@ TEST(Drilling, SparesWhatIsBehind) {
   }
 }
 
+// From what programs bore, in the middle of the limits.
+TEST(Drilling, LeavesThatOfABoreFarBelowItsDrawnSizeToo) {
+  auto d = bush();
+  for (auto& b : d["inner"]) {
+    b.erase("fit");
+    b["limits_mm"] = {-1.9, -1.7};
+  }
+  const auto beside = as_in_catalogue(d);
+  for (const double drilled : beside.drilled_mm) EXPECT_EQ(drilled, 17);
+  EXPECT_EQ(plan(beside).status, PlanStatus::ok);
+}
+
 TEST(Drilling, LeavesHalfAMillimetreToTheBoringBar) {
   const auto p = as_in_catalogue(bush());
   for (const double drilled : p.drilled_mm) EXPECT_EQ(drilled, 19);
