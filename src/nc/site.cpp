@@ -13,10 +13,10 @@ namespace turnwright::nc {
 using planning::SetupWork;
 
 double moved_mm(const Site& site, const std::string& surface) {
+  const double to_middle = planning::to_middle_mm(site.part.drawing, surface);
   for (const auto& o : site.plan.offsets)
-    if (o.on == surface)
-      return o.offset_mm + planning::to_middle_mm(site.part.drawing, surface);
-  return planning::to_middle_mm(site.part.drawing, surface);
+    if (o.on == surface) return o.offset_mm + to_middle;
+  return to_middle;
 }
 
 double middle_h(const part::Drawing& drawing, const Side& side, const Surface& s) {

@@ -306,13 +306,18 @@ double kept_h(const Site& site, const Side& side, const Surface& s, double drawn
   return drawn_h + middle_h(site.part.drawing, side, s) + (s.finished ? 0 : kMarks_mm);
 }
 
+// Whether an element is drawn as high as the one in front of it, where they meet.
+bool drawn_level(const Surface& front, const Surface& behind) {
+  return std::abs(front.h1 - behind.h0) < kSame_mm &&
+         std::abs(front.z1 - behind.z0) < kSame_mm;
+}
+
 // Whether the next element, drawn as high, stands above a roughing pass because of its
 // limits.
 bool steps_up_behind(const Pass& p) {
   if (p.k + 1 >= p.side.items.size()) return false;
   const auto &s = p.surface(), &next = p.side.items[p.k + 1];
-  return std::abs(next.h0 - s.h1) < kSame_mm && std::abs(next.z0 - s.z1) < kSame_mm &&
-         kept_h(p.site, p.side, next, next.h0) > s.h1 + p.left_mm;
+  return drawn_level(s, next) && kept_h(p.site, p.side, next, next.h0) > s.h1 + p.left_mm;
 }
 
 // The pieces that end a pass over element k.
@@ -766,9 +771,8 @@ double above_nominal_mm(const Site& site, const OperationPlan& o, const Side& si
   const double rises_from_z = s.z0 + kBefore_mm + 2 * corner_mm(site, o);
   const double slope = std::tan(minor_edge_rad(site, o));
   double least = left_mm + middle_h(site.part.drawing, side, s);
-  for (std::size_t j = k; j-- > 0;) {
-    const auto &t = side.items[j], &next = side.items[j + 1];
-    if (std::abs(t.h1 - s.h0) > kSame_mm || std::abs(t.z1 - next.z0) > kSame_mm) break;
+  for (std::size_t j = k; j-- > 0 && drawn_level(side.items[j], side.items[j + 1]);) {
+    const auto& t = side.items[j];
     const double rise = slope * std::max(0.0, t.z1 - rises_from_z);
     least = std::max(least, kept_h(site, side, t, t.h1) - s.h0 - rise);
     if (t.h0 != t.h1) break;

@@ -174,9 +174,9 @@ void assign_edges_in_stock(const PreparedPart& p, std::vector<SetupWork>& setups
                  &front = end == End::left ? left : right;
       auto& work = setups[s];
       if (!cuts_edge_in_stock(p, setups, s, e) || faces_between(work, front, e) ||
-          made_with_undercut(p.drawing, k) || !can_face_ring(p, front, e, end))
+          made_with_undercut(p.drawing, k) || !can_face_ring(p, front, e, end) ||
+          !wall_takes_corners(p, e, front, end))
         continue;
-      if (!wall_takes_corners(p, e, front, end)) continue;
       work.before_stock.push_back(k);
       if (p.face_edges_in_stock) work.shoulders.push_back(k);
     }

@@ -235,11 +235,12 @@ void MachinedSurface::take(const OuterOrInner& e, std::size_t index, double left
   index_ = index;
   low_ = left_z_mm;
   high_ = left_z_mm + e.length_mm;
+  double to_middle = 0;  // of the limits
   if (const auto* limits = turned_to_limits(plan_->drawing, e.id)) {
-    const double off_drawn = std::abs(limits->lower_mm + limits->upper_mm) / 4;
-    depth_slack_mm_ = std::max(off_drawn, (limits->upper_mm - limits->lower_mm) / 4);
+    const double half_width = (limits->upper_mm - limits->lower_mm) / 2;
+    to_middle = (limits->lower_mm + limits->upper_mm) / 2;
+    depth_slack_mm_ = std::max(std::abs(to_middle), half_width) / 2;
   }
-  const double to_middle = 2 * to_middle_mm(plan_->drawing, e.id);
   left_mm_ = e.left_mm + to_middle;
   right_mm_ = e.right_mm + to_middle;
   D_small_ = std::min(left_mm_, right_mm_);
