@@ -166,6 +166,16 @@ add_test(NAME planning.choices-of-machines CONFIGURATIONS slow
 set_tests_properties(planning.choices-of-machines PROPERTIES LABELS slow TIMEOUT 1800
   ENVIRONMENT "TURNWRIGHT_SLOW=1")
 
+# More parts drawn at random, and every depth of the literature's problem.
+add_test(NAME nc.more-drawn-parts CONFIGURATIONS slow
+  COMMAND nc_test --gtest_filter=${of_drawn_parts})
+set_tests_properties(nc.more-drawn-parts PROPERTIES ENVIRONMENT "TURNWRIGHT_RANDOM_PARTS=200")
+add_test(NAME multipass.every-depth CONFIGURATIONS slow
+  COMMAND multipass_test --gtest_filter=LinearWitness.*)
+set_tests_properties(multipass.every-depth PROPERTIES ENVIRONMENT "TURNWRIGHT_SLOW=1")
+set_tests_properties(nc.more-drawn-parts multipass.every-depth PROPERTIES LABELS slow
+  TIMEOUT 3600)
+
 # A short batch; scripts/faults runs a long one.
 add_test(NAME cluster.batch COMMAND bash ${PROJECT_SOURCE_DIR}/tests/cluster/batch.bash
   $<TARGET_FILE:turnwright> ${PROJECT_SOURCE_DIR} 300)

@@ -8,11 +8,13 @@ tw_domain(catalogue DEPENDS base PRIVATE_LIBS fmt::fmt)
 tw_domain(part DEPENDS base PRIVATE_LIBS fmt::fmt)
 
 tw_domain(cutting DEPENDS base catalogue optimise PRIVATE_LIBS Eigen3::Eigen fmt::fmt)
-tw_domain(deflection DEPENDS base part PRIVATE_LIBS Eigen3::Eigen fmt::fmt)
+tw_domain(deflection DEPENDS base part PRIVATE_LIBS Eigen3::Eigen fmt::fmt
+  TEST_DEPENDS document)
 tw_domain(thermal DEPENDS base optimise PRIVATE_LIBS Eigen3::Eigen fmt::fmt)
 tw_domain(gcode DEPENDS base catalogue PRIVATE_LIBS fmt::fmt)
 tw_domain(toolpath DEPENDS base catalogue)
-tw_domain(exchange DEPENDS base part PRIVATE_LIBS fmt::fmt Eigen3::Eigen)
+tw_domain(exchange DEPENDS base part PRIVATE_LIBS fmt::fmt Eigen3::Eigen
+  TEST_DEPENDS document)
 tw_domain(learning DEPENDS base PRIVATE_LIBS Boost::headers Eigen3::Eigen)
 tw_domain(chatter DEPENDS base PRIVATE_LIBS Boost::headers Eigen3::Eigen fmt::fmt)
 # Products of complex numbers without the search for infinities that C99's Annex G wants;
@@ -46,7 +48,8 @@ if(BUILD_TESTING)
 endif()
 
 tw_domain(volumetric DEPENDS base catalogue gcode
-  PRIVATE_LIBS Eigen3::Eigen Boost::headers fmt::fmt)
+  PRIVATE_LIBS Eigen3::Eigen Boost::headers fmt::fmt
+  TEST_DEPENDS document)
 tw_domain(tolerance DEPENDS base part PRIVATE_LIBS fmt::fmt)
 
 tw_domain(planning

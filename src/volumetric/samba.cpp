@@ -324,7 +324,7 @@ Triangle reduced(const Equations& equations, const VectorXd& scale, const Vector
 }
 
 struct Decomposition {
-  Eigen::BDCSVD<MatrixXd> svd;
+  Eigen::JacobiSVD<MatrixXd> svd;
   Identifiability of;
 };
 
@@ -332,7 +332,7 @@ struct Decomposition {
 /// Weyl's theorem, which is far below kRankTolerance: the rank is that of A.
 Decomposition decomposed(const Equations& equations, const Triangle& triangle) {
   Decomposition d{
-      Eigen::BDCSVD<MatrixXd>(triangle.R(), Eigen::ComputeThinU | Eigen::ComputeFullV),
+      Eigen::JacobiSVD<MatrixXd>(triangle.R(), Eigen::ComputeThinU | Eigen::ComputeFullV),
       {.unknowns = equations.unknowns(),
        .parameters = equations.parameters(),
        .equations = equations.count(),

@@ -69,7 +69,7 @@ TEST(CutSimulation, OfAwkwardPartsLeavesTheDrawing) {
 class CutSimulationOfRandomParts : public testing::TestWithParam<int> {};
 
 TEST_P(CutSimulationOfRandomParts, LeavesTheDrawing) {
-  const int parts = parts_to_try(100);
+  const int parts = parts_to_try(60);
   int made = 0;
   for (int seed = 1 + GetParam(); seed <= parts; seed += kSideBySide) {
     const auto document =
@@ -84,7 +84,7 @@ TEST_P(CutSimulationOfRandomParts, LeavesTheDrawing) {
 }
 
 TEST_P(CutSimulationOfRandomParts, OfAForgingLeavesTheDrawing) {
-  const int parts = parts_to_try(75);
+  const int parts = parts_to_try(40);
   int made = 0;
   for (int seed = 1 + GetParam(); seed <= parts; seed += kSideBySide) {
     const auto n = static_cast<std::uint32_t>(seed);
@@ -100,7 +100,7 @@ TEST_P(CutSimulationOfRandomParts, OfAForgingLeavesTheDrawing) {
 
 // No tool meets the live centre either.
 TEST_P(CutSimulationOfRandomParts, OnALiveCentreLeavesTheDrawing) {
-  const int parts = parts_to_try(50);
+  const int parts = parts_to_try(30);
   int made = 0, solid = 0;
   for (int seed = 1 + GetParam(); seed <= parts; seed += kSideBySide) {
     auto document = RandomPart(static_cast<std::uint32_t>(seed)).document();

@@ -306,7 +306,7 @@ TEST(PlanAndProgram, OfReamedAndTappedPartsTakeTheSameTime) {
 }
 
 TEST(PlanAndProgram, OfRandomPartsTakeTheSameTimeAndArePrograms) {
-  const int parts = parts_to_try(200);
+  const int parts = parts_to_try(100);
   int made = 0;
   for (int seed = 1; seed <= parts; ++seed) {
     const auto document = RandomPart(static_cast<std::uint32_t>(seed)).document();
