@@ -69,7 +69,7 @@ std::vector<Piece> pieces(const Site& site, const Side& side, const Surface& s) 
   }
   auto line = with_its_undercut(with_back(with_front(corrected(site, side, s), s), s), s);
   if (cut && cut->kind == part::CutKind::groove) {
-    const double floor = side.sign * cut->drawn.left_mm / 2;
+    const double floor = side.sign * cut->core.left_mm / 2;
     line = {{floor, s.z0}, {floor, s.z1}};
   }
   std::vector<Piece> all;

@@ -139,7 +139,7 @@ void rim(Site& site, Side& side, const part::Chamfer& c, double h, double from_z
 void groove(Site& site, const OperationPlan& o, const Place& p) {
   auto& s = p.surface();
   const double w = o.passes[0].ap_mm, above = s.h0 + site.above(p.side);
-  const double floor = p.side.sign * cut_of(site, s)->drawn.left_mm / 2;
+  const double floor = p.side.sign * cut_of(site, s)->core.left_mm / 2;
   const auto n = o.passes.size();
   const double step = n > 1 ? (s.z0 - s.z1 - w) / static_cast<double>(n - 1) : 0;
   for (std::size_t i = 0; i < n; ++i) {
@@ -167,7 +167,7 @@ void groove(Site& site, const OperationPlan& o, const Place& p) {
 void thread(Site& site, const OperationPlan& o, const Place& p) {
   auto& s = p.surface();
   const auto& cut = *cut_of(site, s);
-  const double P = cut.pitch_mm, root = s.h0 - cut.depth_mm;
+  const double P = cut.pitch_mm, root = p.side.sign * cut.core.left_mm / 2;
   const auto room =
       planning::thread_room(site.part, site.setup, {s.inner, s.index}, root);
   const double run_in = planning::run_in_mm(room, P).value();  // else there is no plan
@@ -175,7 +175,7 @@ void thread(Site& site, const OperationPlan& o, const Place& p) {
   const double end = s.z1 + (room.stands_behind ? P : 0);
   const Point before{s.h0 + site.above(p.side), s.z0 + run_in};
   site.approach(p.side, before);
-  double h = s.h0;
+  double h = root + cut.depth_mm;
   for (const auto& pass : o.passes) {
     h -= pass.ap_mm;
     site.rapid(p.side.sign * h, before.z_mm);

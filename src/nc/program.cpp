@@ -89,7 +89,7 @@ InCut in_cut(const Site& site, const OperationPlan& o) {
   if (o.kind != OperationKind::fixed || use_of(site, o) != FixedUse::grooving)
     return {false, s.z1, s.z0};
   const auto [small, large] =
-      std::minmax({std::abs(s.h0), cut_of(site, s)->drawn.left_mm / 2});
+      std::minmax({std::abs(s.h0), cut_of(site, s)->core.left_mm / 2});
   return {true, small, large};
 }
 

@@ -86,7 +86,7 @@ Site::Site(const planning::PreparedPart& part_, const planning::ProcessPlan& pla
       if (!done[i]) continue;
       s.finished = true;
       s.left = middle_h(part.drawing, side, s);
-      if (part::is_groove(e)) s.h0 = s.h1 = side.sign * e.cut->drawn.left_mm / 2;
+      if (part::is_groove(e)) s.h0 = s.h1 = side.sign * e.cut->core.left_mm / 2;
     }
     std::sort(side.items.begin(), side.items.end(),
               [](const Surface& x, const Surface& y) { return x.z0 > y.z0; });

@@ -181,7 +181,9 @@ std::vector<Point> crossing(const Pass& p, std::size_t k) {
   const double arc = r * (1 - std::cos(rises_rad));
   if (falls > arc) {
     const double z = from.back().z_mm - r - r * std::sin(rises_rad);
-    return {{from.back().h_mm, z}, {to[0].h_mm, z - (falls - arc) / std::tan(rises_rad)}};
+    const Normal down{std::cos(rises_rad), -std::sin(rises_rad)};
+    return {m.z == 0 ? Point{from.back().h_mm, z} : tip(from.back(), m, down, r),
+            {to[0].h_mm, z - (falls - arc) / std::tan(rises_rad)}};
   }
   const auto over = across(from.back(), m, to[0], n, r);
   return {over.leave, over.meet};

@@ -20,7 +20,7 @@ constexpr double kRounding = 1e-9;  // of the radius: a quarter circle ends upri
 struct KnurlName {
   const char* name;
   KnurlType type;
-  double below_pitches;  // the blank's diameter under the nominal one, Eq. (8)
+  double below_pitches;  // the blank's diameter under the nominal one, Eq. (5)
 };
 constexpr std::array<KnurlName, 7> kKnurls{{{"RAA", KnurlType::RAA, 1.0 / 2},
                                             {"RBL", KnurlType::RBL, 1.0 / 2},
@@ -37,12 +37,11 @@ const KnurlName& named(KnurlType type) {
 
 }  // namespace
 
-Shaped groove(double blank_mm, double floor_mm) {
-  const Ends floor{floor_mm, floor_mm};
+Shaped groove(double blank_mm, double drawn_mm, double floor_mm) {
   return {{blank_mm, blank_mm},
           {.kind = CutKind::groove,
-           .drawn = floor,
-           .core = floor,
+           .drawn = {drawn_mm, drawn_mm},
+           .core = {floor_mm, floor_mm},
            .depth_mm = std::abs(blank_mm - floor_mm) / 2}};
 }
 
@@ -67,36 +66,6 @@ Shaped counterbored(double diameter_mm, double drilled_mm) {
   return s;
 }
 
-Shaped tapped(double d_mm, double pitch_mm, double drilled_mm, double lead_mm) {
-  auto s = thread(d_mm, pitch_mm, Where::inside);
-  s.blank = {drilled_mm, drilled_mm};
-  s.cut.depth_mm = (d_mm - drilled_mm) / 2;
-  s.cut.drilled_mm = drilled_mm;
-  s.cut.lead_mm = lead_mm;
-  return s;
-}
-
-MinorDiameter minor_diameter_6H(double d_mm, double P) {
-  const double least = thread(d_mm, P, Where::inside).blank.left_mm;
-  const double width_um =  // Eq. (7)
-      P <= 0.8 ? 433 * P - 190 * std::pow(P, 1.22) : 230 * std::pow(P, 0.7);
-  return {least, least + units::mm_from_um(width_um)};
-}
-
-Shaped thread(double d_mm, double pitch_mm, Where where) {
-  const double H = std::numbers::sqrt3 / 2 * pitch_mm;
-  const bool outside = where == Where::outside;
-  const double depth = (outside ? 17.0 / 24 : 5.0 / 8) * H;  // Eq. (1), (2)
-  const double minor = d_mm - 2 * depth, blank = outside ? d_mm : minor;
-  const double core = outside ? minor : d_mm;
-  return {{blank, blank},
-          {.kind = CutKind::thread,
-           .drawn = {d_mm, d_mm},
-           .core = {core, core},
-           .depth_mm = depth,
-           .pitch_mm = pitch_mm}};
-}
-
 std::optional<Knurl> knurl(const std::string& text) {
   static const Pattern kForm(
       R"(\s*(?:DIN\s*82)?[\s-]*(R[A-Z]{2})\s*(\d+(?:[.,]\d+)?)\s*)");
@@ -118,7 +87,7 @@ std::string designation(const Knurl& k) {
 
 Shaped knurled(double d1, const Knurl& k) {
   const double t = k.pitch_mm, blank = d1 - named(k.type).below_pitches * t,
-               root = d1 - t;  // Eq. (8)
+               root = d1 - t;  // Eq. (5)
   return {{blank, blank},
           {.kind = CutKind::knurl,
            .drawn = {d1, d1},
@@ -145,23 +114,23 @@ Shaped arc(double length_mm, Ends ends, double radius_mm, bool convex) {
   const double most = convex && turns ? rc + R : std::max(rl, rr);
   const double least = !convex && turns ? rc - R : std::min(rl, rr);
   if (!(least > 0)) throw std::domain_error(tr("an arc that does not meet the axis"));
-  const auto slope = [R](double dz) {  // Eq. (6)
+  const auto slope = [R](double dz) {  // Eq. (4)
     return dz > 0 ? std::asin(std::min(1.0, dz / R)) : 0;
   };
   Shaped s{{2 * most, 2 * most},
            {.kind = CutKind::arc,
             .drawn = ends,
             .core = ends,
-            .depth_mm = most - std::min(rl, rr),  // Eq. (3)
+            .depth_mm = most - std::min(rl, rr),  // Eq. (1)
             .radius_mm = R,
             .convex = convex,
-            .path_mm = 2 * R * std::asin(std::min(1.0, c / (2 * R))),  // Eq. (5)
+            .path_mm = 2 * R * std::asin(std::min(1.0, c / (2 * R))),  // Eq. (3)
             .falls_to_left_rad = slope(convex ? zc : l - zc),
             .falls_to_right_rad = slope(convex ? l - zc : zc)}};
   if (convex) return s;
   s.blank = ends;
   s.cut.core = {2 * least, 2 * least};
-  s.cut.depth_mm = (R - d) * c / l;  // Eq. (4)
+  s.cut.depth_mm = (R - d) * c / l;  // Eq. (2)
   return s;
 }
 

@@ -6,7 +6,6 @@
 namespace turnwright::part {
 namespace {
 
-constexpr double kInch_mm = 25.4;
 constexpr double kLargest_in = 24;
 constexpr int kMostPerInch = 120;
 constexpr int kFinest = 64;  // of an inch, the least fraction

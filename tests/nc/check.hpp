@@ -231,7 +231,7 @@ class Check : private Sizes {
     if (!e.cut ||
         (e.cut->kind != part::CutKind::thread && e.cut->kind != part::CutKind::knurl))
       return;
-    const double root = sign * e.left_mm / 2 - e.cut->depth_mm;
+    const double root = sign * e.cut->core.left_mm / 2;
     if (!threads_.contains(e.id) || !(std::abs(threads_[e.id] - root) <= kTolerance))
       fault(e.id + ": its thread or knurl is not made to its depth");
   }

@@ -337,7 +337,7 @@ void CutSimulation::compare_threads() {
     if (!e.cut ||
         (e.cut->kind != part::CutKind::thread && e.cut->kind != part::CutKind::knurl))
       return;
-    const double root = sign * e.left_mm / 2 - e.cut->depth_mm;
+    const double root = sign * e.cut->core.left_mm / 2;
     const auto cut = threads_.find(e.id);
     const double off = cut == threads_.end() ? kFar_mm : std::abs(cut->second - root);
     if (off > tolerances_.gouge) find(Fault::thread, e.id, off, {sign * root, 0});

@@ -158,7 +158,7 @@ void DrawnPart::append(Run& run, const std::vector<Element>& all, std::size_t k,
     return 0.0;
   };
   const auto root = [&](const Element& thread) {
-    return sign * thread.left_mm / 2 - thread.cut->depth_mm;
+    return sign * thread.cut->core.left_mm / 2;
   };
   const auto is_thread = [&](std::size_t i) {
     return i < all.size() && all[i].cut &&

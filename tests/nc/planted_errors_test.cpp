@@ -202,10 +202,13 @@ Paper supported(double from_z = 15.55) {
   return paper.rapid(15, from_z).feed(15, -40.5).rapid(18, -38).rapid(100, -38);
 }
 
-/// A groove of 4 mm with a blade of 3 mm, and a thread of M30x1.5 that runs out into it.
+/// A groove of 4 mm with a blade of 3 mm, and a thread of M30x1.5 that runs out into it, whose
+/// pitch diameter lies in the middle of 6g.
 struct Screw {
   double groove_x = 13, groove_z = -24;
-  double thread_x = 15 - 17.0 / 24 * std::sqrt(0.75) * 1.5;
+  double below_basic =
+      (15 + 11 * 1.5 + 45 * std::pow(1.5, 0.4) * std::pow(22.4 * 45, 0.05)) / 1000 / 2;
+  double thread_x = 15 - 17.0 / 24 * std::sqrt(0.75) * 1.5 - below_basic;
   double thread_to_z = -21.5;
 };
 Paper screw(const Screw& s = {}) {
@@ -216,7 +219,7 @@ Paper screw(const Screw& s = {}) {
     "outer": [{"id": "d1", "kind": "cylinder", "length_mm": 16, "diameter_mm": 30},
               {"id": "g1", "kind": "groove", "length_mm": 4, "diameter_mm": 26},
               {"id": "t1", "kind": "thread", "length_mm": 20, "diameter_mm": 30,
-               "pitch_mm": 1.5}],
+               "pitch_mm": 1.5, "limits_mm": [-0.01, 0.01]}],
     "faces": [{"id": "right", "Ra_um": 3.2}],
     "machine": "lathe-medium",
     "setups": [{"hold": "left", "grip_mm": 55, "clampings": ["chuck"]}]})"));

@@ -122,7 +122,9 @@ class RandomPart {
 
   void between(double a, double b, int kind) {
     if (kind == 0) {
-      add("groove", 3 + below(2), {{"diameter_mm", std::min(a, b) - 2 - below(3)}});
+      json e{{"diameter_mm", std::min(a, b) - 2 - below(3)}};
+      if (size_limits_ == SizeLimits::aside) e["limits_mm"] = {-0.4, 0};
+      add("groove", 3 + below(2), e);
     } else if (kind == 1 && a != b) {
       add("cone", 4 + below(20), {{"left_mm", a}, {"right_mm", b}});
     } else if (kind == 2 || kind == 3) {

@@ -24,13 +24,20 @@ class Sizes {
     return false;
   }
 
-  // What a radius is cut to beside what is drawn: the middle of its limits, the offset of
+  // What a radius is cut to beside what is drawn: the middle of the limits of a size or of a
+  // thread's crests, the offset of
   // the tool and the correction at a place.
   double correction(const std::string& id, double z) const {
     double sum = 0;
     for (const auto& t : p_.part.drawing.tolerances)
       if (t.of == id && t.kind == part::ToleranceKind::diameter && !cut(id))
         sum += (t.limits->lower_mm + t.limits->upper_mm) / 2 / 2;
+    const auto crests = [&](const auto& e) {
+      if (e.id == id && e.cut && e.limits)
+        sum += (e.limits->lower_mm + e.limits->upper_mm) / 2 / 2;
+    };
+    std::ranges::for_each(p_.part.drawing.outer, crests);
+    std::ranges::for_each(p_.part.drawing.inner, crests);
     for (const auto& o : p_.plan.offsets)
       if (o.on == id) sum += o.offset_mm;
     return sum + path_correction(id, z);
@@ -113,7 +120,7 @@ class Sizes {
     if (!e.cut || e.cut->kind == part::CutKind::thread ||
         e.cut->kind == part::CutKind::knurl)
       return straight / 2;
-    if (e.cut->kind == part::CutKind::groove) return e.cut->drawn.left_mm / 2;
+    if (e.cut->kind == part::CutKind::groove) return e.cut->core.left_mm / 2;
     const double a = e.cut->drawn.left_mm / 2, b = e.cut->drawn.right_mm / 2;
     const double R = e.cut->radius_mm, c = std::hypot(e.length_mm, b - a);
     const double to_centre = std::sqrt(std::max(0.0, R * R - c * c / 4));

@@ -160,5 +160,73 @@ TEST(NcSizes, ABoreFarBelowItsDrawnSizeIsClearedByRapids) {
   EXPECT_EQ(found(p, {Fault::gouge, Fault::left, Fault::rapid}), "");
 }
 
+// Steep cones before sizes that are cut a little lower than the cone ends, in the drawing
+// higher or level: the corner leaves the cone where the cone ends.
+TEST(NcSizes, BehindASteepConeMayBeLowerThanItsEnd) {
+  for (const double drawn_mm : {27.8, 28.}) {
+    const auto cone = [](const char* id, double left_mm, double right_mm) {
+      return json{{"id", id},
+                  {"kind", "cone"},
+                  {"length_mm", 1},
+                  {"left_mm", left_mm},
+                  {"right_mm", right_mm}};
+    };
+    const double up = 28.03 - drawn_mm, down = 59.94 - (88 - drawn_mm);
+    auto document =
+        bush(json::array({cylinder("d", 88 - drawn_mm, 59, down - 0.02, down + 0.02),
+                          cone("c", 60, 58)}),
+             json::array(
+                 {cone("m", 28, 30), cylinder("b", drawn_mm, 59, up - 0.02, up + 0.02)}));
+    document["stock"].update({{"length_mm", 92}, {"left_allowance_mm", 30}});
+    document["setups"] = {{{"hold", "left"}, {"grip_mm", 28}, {"clampings", {"chuck"}}}};
+    const auto& p = planned(document);
+    ASSERT_EQ(p.plan.status, planning::PlanStatus::ok) << drawn_mm;
+    EXPECT_EQ(found(p, {Fault::gouge, Fault::left, Fault::lean}), "") << drawn_mm;
+  }
+}
+
+// The least X of the feeds, or the largest in a bore, of the step that makes an element.
+double deepest_x_mm(const Planned& p, const std::string& step_of, bool inside) {
+  double deepest = inside ? 0 : INFINITY;
+  for (const auto& setup : programs(p.part, p.plan).setups)
+    for (const auto& step : setup.steps) {
+      if (step.comments.empty() ||
+          step.comments[0].find("-" + step_of + ": ") == std::string::npos)
+        continue;
+      for (const auto& m : step.moves)
+        if (m.kind != Move::Kind::rapid)
+          deepest = inside ? std::max(deepest, m.x_mm) : std::min(deepest, m.x_mm);
+    }
+  return 2 * deepest;
+}
+
+// DIN 471's groove for a shaft of 40 mm, 37.5 h11; a DIN 472 groove of 31.4 H12 for 30 mm;
+// M36x2-6g and M30x1.5-6H of ISO 965-2.
+TEST(NcSizes, GroovesAndThreadsAreCutToTheMiddleOfTheirLimits) {
+  const auto element = [](const char* id, const char* kind, double length_mm, json more) {
+    more.update({{"id", id}, {"kind", kind}, {"length_mm", length_mm}});
+    return more;
+  };
+  const auto& p = planned(bush(
+      json::array(
+          {element("th", "thread", 20, {{"designation", "M36x2"}}),
+           element("relief", "groove", 5, {{"diameter_mm", 33}}),
+           cylinder("seat", 40, 25, -0.016, 0),
+           element("ring", "groove", 1.85, {{"diameter_mm", 37.5}, {"fit", "h11"}}),
+           cylinder("end", 40, 8.15, -0.016, 0)}),
+      json::array(
+          {cylinder("bore", 30, 10, 0, 0.021),
+           element("inner-ring", "groove", 3, {{"diameter_mm", 31.4}, {"fit", "H12"}}),
+           cylinder("floor", 26, 47, 0, 0.1)})));
+  ASSERT_EQ(p.plan.status, planning::PlanStatus::ok);
+  EXPECT_NEAR(deepest_x_mm(p, "groove-ring", false), 37.5 - 0.08, 1e-6);
+  EXPECT_NEAR(deepest_x_mm(p, "groove-relief", false), 33, 1e-6);
+  EXPECT_NEAR(deepest_x_mm(p, "groove-inner-ring", true), 31.4 + 0.125, 1e-6);
+  // Pitch diameter 34.663 to 34.493, 34.701 of the basic profile.
+  EXPECT_NEAR(deepest_x_mm(p, "thread-th", false), 36 - 1.22687 * 2 - (34.701 - 34.578),
+              0.005);
+  EXPECT_NEAR(deepest_x_mm(p, "finish-th", false), (35.962 + 35.682) / 2, 0.004);
+}
+
 }  // namespace
 }  // namespace turnwright::nc

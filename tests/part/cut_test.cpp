@@ -9,60 +9,18 @@
 namespace turnwright::part {
 namespace {
 
-// ISO 724 and the handbook's tables of metric threads, three decimals printed.
-TEST(Thread, HasTheTabulatedDiameters) {
-  struct Printed {
-    double d, P, d3, D1;
-  };
-  for (const auto& t :
-       {Printed{10, 1.5, 8.160, 8.376}, Printed{20, 2.5, 16.933, 17.294},
-        Printed{30, 3.5, 25.706, 26.211}, Printed{30, 1.5, 28.160, 28.376}}) {
-    const auto outside = thread(t.d, t.P, Where::outside);
-    EXPECT_NEAR(outside.cut.core.left_mm, t.d3, 5e-4) << t.d;
-    EXPECT_EQ(outside.blank.left_mm, t.d);
-    EXPECT_NEAR(outside.cut.depth_mm, 0.61343 * t.P, 1e-5 * t.P);
-    const auto inside = thread(t.d, t.P, Where::inside);
-    EXPECT_NEAR(inside.blank.left_mm, t.D1, 5e-4) << t.d;
-    EXPECT_EQ(inside.cut.core.left_mm, t.d);
-    EXPECT_NEAR(inside.cut.depth_mm, 0.54127 * t.P, 1e-5 * t.P);
-  }
-}
-
-// ISO 965-1's limits of D1, whose widths are rounded to the series R 40, of steps of 6 %.
-TEST(MinorDiameter, IsThatOfThePrintedTableBeforeItsRounding) {
-  struct Printed {
-    double d, P, least, most;
-  };
-  for (const auto& t : {Printed{3, 0.5, 2.459, 2.599}, Printed{5, 0.8, 4.134, 4.334},
-                        Printed{6, 1, 4.917, 5.153}, Printed{8, 1.25, 6.647, 6.912},
-                        Printed{10, 1.5, 8.376, 8.676}, Printed{12, 1.75, 10.106, 10.441},
-                        Printed{16, 2, 13.835, 14.210}, Printed{20, 2.5, 17.294, 17.744},
-                        Printed{24, 3, 20.752, 21.252}}) {
-    const auto D1 = minor_diameter_6H(t.d, t.P);
-    EXPECT_NEAR(D1.least_mm, t.least, 5e-4) << t.d;
-    EXPECT_NEAR(D1.most_mm - D1.least_mm, t.most - t.least, 0.04 * (t.most - t.least))
-        << t.d;
-  }
-}
-
 TEST(Holes, AreAsDeepInTheWallAsTheirToolsCut) {
   const auto r = reamed(10, 9.8, 1.5);
   EXPECT_EQ(r.blank.left_mm, 10);
   EXPECT_NEAR(r.cut.depth_mm, 0.1, 1e-12);
   EXPECT_EQ(r.cut.drilled_mm, 9.8);
-  const auto t = tapped(10, 1.5, 8.5, 3.75);
-  EXPECT_EQ(t.blank.left_mm, 8.5);
-  EXPECT_EQ(t.cut.drawn.left_mm, 10);
-  EXPECT_EQ(t.cut.core.left_mm, 10) << "as weak as its full diameter";
-  EXPECT_NEAR(t.cut.depth_mm, 0.75, 1e-12);
-  EXPECT_EQ(t.cut.pitch_mm, 1.5);
 }
 
 TEST(Groove, IsAsDeepAsItsFloorIsAway) {
-  EXPECT_EQ(groove(30, 26).cut.depth_mm, 2);
-  EXPECT_EQ(groove(30, 36).cut.depth_mm, 3);  // in a bore
-  EXPECT_EQ(groove(30, 26).blank.left_mm, 30);
-  EXPECT_EQ(groove(30, 26).cut.core.right_mm, 26);
+  EXPECT_EQ(groove(30, 26, 26).cut.depth_mm, 2);
+  EXPECT_EQ(groove(30, 36, 36).cut.depth_mm, 3);  // in a bore
+  EXPECT_EQ(groove(30, 26, 26).blank.left_mm, 30);
+  EXPECT_EQ(groove(30, 26, 26).cut.core.right_mm, 26);
 }
 
 // The circle through both ends by its own equation, at many places.

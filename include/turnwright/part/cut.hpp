@@ -38,8 +38,10 @@ struct Cut {
   /// Floor of a groove, nominal diameter of a thread or a knurl, ends of an arc, a hole's
   /// diameter.
   Ends drawn = {};
-  Ends core = {};       ///< diameters of the load-bearing core: as a beam never too stiff
-  double depth_mm = 0;  ///< largest depth, on the radius
+  /// Diameters of the load-bearing core, as a beam never too stiff: of a groove its floor and
+  /// of a thread its root where they are cut.
+  Ends core = {};
+  double depth_mm = 0;  ///< largest depth, on the radius, from the blank as it is cut
   double pitch_mm = 0;  ///< of a thread or a knurl
   KnurlType knurl = KnurlType::RAA;
   /// Diameter of the drill of a hole or a tapped thread; 0: bored.
@@ -66,8 +68,9 @@ struct Shaped {
 
 enum class Where { outside, inside };
 
-/// A groove with the given diameter of its floor, in a cylindrical blank.
-Shaped groove(double blank_mm, double floor_mm);
+/// A groove in a cylindrical blank, with the diameter of its floor that is drawn and the one
+/// to which it is cut.
+Shaped groove(double blank_mm, double drawn_mm, double floor_mm);
 
 /// A hole that is drilled to its size.
 Shaped hole(double diameter_mm);
@@ -75,29 +78,6 @@ Shaped hole(double diameter_mm);
 Shaped reamed(double diameter_mm, double drilled_mm, double lead_mm);
 /// A counterbore: a flat drill opens a narrower hole to a diameter.
 Shaped counterbored(double diameter_mm, double drilled_mm);
-/// An inner thread that is tapped into a drilled hole, its blank.
-Shaped tapped(double d_mm, double pitch_mm, double drilled_mm, double lead_mm);
-
-/// Limits [mm] of the minor diameter D1 of an inner metric thread of class 6H, to which its
-/// tap drill belongs:
-///
-///     D1 = d - 1.08253 P,
-///     T  = 433 P - 190 P^1.22 um up to P = 0.8 mm,  230 P^0.7 um above            (7)
-///
-/// Source: ISO 724; ISO 965-1, 12.2.  DIN 336 gives the drills, about d - P.
-struct MinorDiameter {
-  double least_mm = 0, most_mm = 0;
-};
-MinorDiameter minor_diameter_6H(double d_mm, double pitch_mm);
-
-/// ISO metric thread of nominal diameter d and pitch P, H = (sqrt 3/2) P:
-///
-///     outside: turned to d, depth h3 = (17/24) H = 0.61343 P, core d3 = d - 2 h3 (1)
-///     inside:  bored to D1 = d - 2 (5/8) H, depth (5/8) H = 0.54127 P, opening d (2)
-///
-/// Source: ISO 68-1's basic profile, ISO 724's diameters; d3 with the root radius H/6 of
-/// the handbook's tables.
-Shaped thread(double d_mm, double pitch_mm, Where where);
 
 /// Knurl of nominal diameter d1 and pitch t, pressed into a narrower blank whose material
 /// rises between the wheel's teeth.  With a profile of 90 deg it is t/2 deep, and as no
@@ -106,7 +86,7 @@ Shaped thread(double d_mm, double pitch_mm, Where where);
 /// indented.
 ///
 ///     RAA, RBL, RBR: d2 = d1 - t/2;  RGE, RKE: d2 = d1 - 2 t/3;  RGV, RKV: d2 = d1 - t/3,
-///     depth d2/2 - (d1 - t)/2, core d1 - t                                          (8)
+///     depth d2/2 - (d1 - t)/2, core d1 - t                                          (5)
 ///
 /// Source: derived here; DIN 82, 2.4, calculates d2 = d1 - 0.33 t of RKV, as its English
 /// text of 1973 has it, and says that neither rounded grooves nor the material count.
@@ -115,11 +95,11 @@ Shaped knurled(double d1_mm, const Knurl& knurl);
 /// Arc of radius R through two ends of given diameters, `length` apart.  With c the
 /// chord, s = R - sqrt(R^2 - c^2/4) its sagitta and rc the centre's height:
 ///
-///     convex:  turned to a cylinder of its largest diameter; the chord is the core (3)
+///     convex:  turned to a cylinder of its largest diameter; the chord is the core (1)
 ///     concave: turned to the chord, depth s c/length; a cylinder of its least
-///              diameter is the core (4)
-///     path = 2 R asin(c/(2 R)) (5)
-///     slope where it is steepest, at an end: asin(distance from the centre / R) (6)
+///              diameter is the core (2)
+///     path = 2 R asin(c/(2 R)) (3)
+///     slope where it is steepest, at an end: asin(distance from the centre / R) (4)
 ///
 /// Source: derived here, cut_test measures points on the circle.
 /// @throws std::domain_error naming the reason: R is below half the chord, the arc

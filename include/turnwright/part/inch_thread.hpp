@@ -7,6 +7,8 @@
 /// as metric ones do, so that part::thread (cut.hpp) has their diameters.
 namespace turnwright::part {
 
+inline constexpr double kInch_mm = 25.4;  ///< by definition
+
 /// Nominal diameter and pitch of n threads per inch,
 ///
 ///     d = 25.4 D,   P = 25.4/n                                                      (1)

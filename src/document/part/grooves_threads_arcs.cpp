@@ -9,6 +9,7 @@
 #include "turnwright/base/pattern.hpp"
 #include "turnwright/part/inch_thread.hpp"
 #include "turnwright/part/metric_thread.hpp"
+#include "turnwright/part/thread.hpp"
 #include "turnwright/tolerance/iso286.hpp"
 
 namespace turnwright::document {
@@ -17,19 +18,29 @@ namespace {
 using part::CutKind;
 using part::Where;
 
-void read_demands(Draft& draft, Reader& r, double least_mm) {
+// The limits_mm, beside what is left to the tool.
+std::optional<part::Limits> read_demands(Draft& draft, Reader& r, double least_mm) {
   r.optional_number("Ra_um", above_up_to(0, 100, "um"));
   r.optional_number("Rz_um", above_up_to(0, 400, "um"));
-  if (r.has("limits_mm") && least_mm + read_limits(r).lower_mm <= 0)
+  std::optional<part::Limits> limits;
+  if (r.has("limits_mm")) limits = read_limits(r);
+  if (limits && least_mm + limits->lower_mm <= 0)
     r.problem_at("limits_mm", tr("limits that leave a diameter > 0 mm"), "conflict");
-  if (r.has("fit") && r.has("limits_mm"))
+  if (r.has("fit") && limits)
     r.problem_at("limits_mm", tr("fit or limits_mm, not both"), "conflict");
   leave_to_the_tool(draft, r);
+  return limits;
+}
+
+double middle_mm(const std::optional<part::Limits>& limits) {
+  return limits ? (limits->lower_mm + limits->upper_mm) / 2 : 0;
 }
 
 struct Size {
   double d_mm = std::numeric_limits<double>::quiet_NaN();
   double P_mm = std::numeric_limits<double>::quiet_NaN();
+  bool inch = false;
+  std::string tolerance_class = {};
 };
 
 // "M30x1.5", or "M30" of the coarse series; "1/2-13 UNC" in inches.
@@ -40,7 +51,8 @@ Size read_designation(Reader& r) {
       r.problem_at(key, tr("designation, or diameter_mm and pitch_mm, not both"),
                    "conflict");
   if (text.empty()) return {};
-  if (const auto inch = part::inch_thread(text)) return {inch->d_mm, inch->pitch_mm};
+  if (const auto inch = part::inch_thread(text))
+    return {inch->d_mm, inch->pitch_mm, true, inch->tolerance_class};
   const auto metric = part::metric_thread(text);
   if (metric && metric->pitch_mm) return {metric->d_mm, *metric->pitch_mm};
   r.problem_at("designation",
@@ -70,18 +82,42 @@ Size read_thread_size(Draft& draft, Reader& r) {
   return s;
 }
 
-void check_thread_class(Reader& r) {
-  static const Pattern kClass("[3-9][a-hA-H]([3-9][a-hA-H])?|[123][AB]");
-  const auto fit = r.optional_text("fit", 8);
-  if (fit && !fit->empty() && !kClass.match(*fit))
-    r.problem_at("fit", tr("a thread's tolerance class like \"6g\", \"6H\" or \"2A\""),
+struct Thread {
+  part::Shaped shape = {};
+  std::string tolerance_class = {};
+  part::ThreadLimits limits = {};
+};
+
+// The class of the drawing, or the usual one.
+Thread read_thread_class(Draft& draft, Reader& r, const Size& s, Where where) {
+  const bool outside = where == Where::outside, named = !s.tolerance_class.empty();
+  if (named && r.has("fit"))
+    r.problem_at("fit", tr("designation with a class, or fit, not both"), "conflict");
+  Thread t;
+  t.tolerance_class = named ? s.tolerance_class : r.optional_text("fit", 8).value_or("");
+  if (t.tolerance_class.empty()) {
+    t.tolerance_class = s.inch ? outside ? "2A" : "2B" : outside ? "6g" : "6H";
+    if (!r.has("fit"))
+      draft.assume(
+          r.pointer_of("fit"), t.tolerance_class,
+          s.inch ? tr("the usual class of ASME B1.1") : tr("the usual class of ISO 965"));
+  }
+  const auto limits = part::thread_limits(t.tolerance_class, s.d_mm, s.P_mm, where);
+  if (limits) t.limits = *limits;
+  if (!limits)
+    r.problem_at(named ? "designation" : "fit",
+                 outside ? tr("an outer thread's tolerance class like \"6g\" or \"2A\"")
+                         : tr("an inner thread's tolerance class like \"6H\" or \"2B\""),
                  "choice");
+  return t;
 }
 
-part::Shaped read_thread(Draft& draft, Reader& r, Where where) {
+// Its crests are turned or bored as sizes are, to the middle of their limits.
+Thread read_thread(Draft& draft, Reader& r, Where where) {
   const auto s = read_thread_size(draft, r);
-  check_thread_class(r);
-  read_demands(draft, r, s.d_mm);
+  auto t = read_thread_class(draft, r, s, where);
+  const auto given = read_demands(draft, r, s.d_mm);
+  if (given && where == Where::outside) t.limits.crest = *given;
   const char* key = r.has("designation") ? "designation" : "pitch_mm";
   if (!(s.d_mm > 0 && s.d_mm <= 20000 && s.P_mm > 0)) {
     if (r.has("designation") && std::isfinite(s.d_mm))
@@ -90,22 +126,28 @@ part::Shaped read_thread(Draft& draft, Reader& r, Where where) {
   }
   if (s.P_mm > s.d_mm / 3)
     r.problem_at(key, tr("a pitch of at most a third of the diameter"), "conflict");
-  return part::thread(s.d_mm, s.P_mm, where);
+  t.shape = part::thread(s.d_mm, s.P_mm, where, t.limits);
+  return t;
 }
 
-// Diameter of a groove's floor or of a hole.
-double read_diameter(Draft& draft, Reader& r) {
-  const double floor = r.number("diameter_mm", kSize);
+struct Diameter {
+  double drawn_mm = 0;
+  std::optional<part::Limits> limits = {};
+};
+
+// Of a groove's floor or of a hole.
+Diameter read_diameter(Draft& draft, Reader& r) {
+  Diameter d{r.number("diameter_mm", kSize)};
   if (const auto fit = r.optional_text("fit", 8);
-      fit && !fit->empty() && std::isfinite(floor)) {
+      fit && !fit->empty() && std::isfinite(d.drawn_mm)) {
     try {
-      tolerance::fit_limits_mm(floor, *fit);
+      d.limits = tolerance::fit_limits_mm(d.drawn_mm, *fit);
     } catch (const std::domain_error& error) {
       r.problem_at("fit", say("an ISO 286 tolerance class ({})", error.what()), "choice");
     }
   }
-  read_demands(draft, r, floor);
-  return floor;
+  if (const auto given = read_demands(draft, r, d.drawn_mm)) d.limits = given;
+  return d;
 }
 
 part::Shaped read_arc(Draft& draft, Reader& r, double length_mm) {
@@ -127,12 +169,17 @@ template <class Element>
 void read(Draft& draft, Reader& r, Element& e, CutKind kind, Where where) {
   e.length_mm = r.number("length_mm", kSize);
   part::Shaped s;
-  if (kind == CutKind::thread) s = read_thread(draft, r, where);
-  if (kind == CutKind::groove) {
-    const double floor = read_diameter(draft, r);
-    s = part::groove(floor, floor);
+  if (kind == CutKind::thread) {
+    const auto t = read_thread(draft, r, where);
+    s = t.shape;
+    e.fit = t.tolerance_class;
+    e.limits = t.limits.crest;
   }
-  if (kind == CutKind::hole) s = part::hole(read_diameter(draft, r));
+  if (kind == CutKind::groove) {
+    const auto d = read_diameter(draft, r);
+    s = part::groove(d.drawn_mm, d.drawn_mm, d.drawn_mm + middle_mm(d.limits));
+  }
+  if (kind == CutKind::hole) s = part::hole(read_diameter(draft, r).drawn_mm);
   if (kind == CutKind::arc) s = read_arc(draft, r, e.length_mm);
   s.cut.kind = kind;
   r.finish();
@@ -178,6 +225,11 @@ std::optional<std::size_t> neighbour(const std::vector<Element>& list, std::size
   return first ? before : after;
 }
 
+const char* limits_key(Reader item) {
+  if (item.has("fit")) return "fit";
+  return item.has("limits_mm") ? "limits_mm" : "diameter_mm";
+}
+
 template <class Element>
 void give_blanks(std::vector<Element>& list, const std::vector<Reader>& items,
                  Where where) {
@@ -200,16 +252,27 @@ void give_blanks(std::vector<Element>& list, const std::vector<Reader>& items,
                           "conflict");
       continue;
     }
-    const double blank = towards(list, *k, i), floor = e.cut->drawn.left_mm;
+    const double blank = towards(list, *k, i), made = blank + middle_mm(list[*k].limits);
+    const double drawn = e.cut->drawn.left_mm, floor = e.cut->core.left_mm;
     const bool outside = where == Where::outside;
-    if (outside ? floor >= blank : floor <= blank)
+    const auto reaches = [&](double d, double rim) {
+      return outside ? d >= rim : d <= rim;
+    };
+    if (reaches(drawn, blank))
       items[i].problem_at("diameter_mm",
                           outside ? say("less than the {} mm of {} beside the groove",
                                         number_text(blank), list[*k].id)
                                   : say("more than the {} mm of {} beside the groove",
                                         number_text(blank), list[*k].id),
                           "conflict");
-    const auto s = part::groove(blank, floor);
+    else if (reaches(floor, blank) || reaches(floor, made))
+      items[i].problem_at(
+          limits_key(items[i]),
+          say("limits whose middle, {} mm, leaves a groove in {} beside it, which is cut "
+              "to {} mm",
+              number_text(floor), list[*k].id, number_text(std::round(1e4 * made) / 1e4)),
+          "conflict");
+    const auto s = part::groove(blank, drawn, floor);
     e.left_mm = e.right_mm = blank;
     e.cut = s.cut;
   }
@@ -254,8 +317,9 @@ void plunge_necks(Draft& draft, const std::vector<Reader>& items) {
       if (!plain || is_groove(e)) continue;
       draft.assume(items[first].pointer_of("kind"), "groove",
                    tr("a neck between larger diameters is plunged by a grooving blade"));
-      make_at_catalogue_conditions(draft, items[first], e,
-                                   part::groove(e.left_mm, e.left_mm).cut);
+      make_at_catalogue_conditions(
+          draft, items[first], e,
+          part::groove(e.left_mm, e.left_mm, e.left_mm + middle_mm(e.limits)).cut);
     }
   }
 }

@@ -5,6 +5,7 @@
 
 #include "base/say.hpp"
 #include "turnwright/base/units.hpp"
+#include "turnwright/part/thread.hpp"
 #include "turnwright/tolerance/iso286.hpp"
 
 namespace turnwright::document {

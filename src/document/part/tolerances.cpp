@@ -345,7 +345,7 @@ void add_sizes(part::Drawing& drawing, const std::vector<Element>& elements) {
     const bool listed = std::any_of(list.begin(), list.end(), [&](const auto& t) {
       return t.kind == ToleranceKind::diameter && t.of == e.id;
     });
-    if (e.limits && !listed)
+    if (e.limits && !e.cut && !listed)
       drawing.tolerances.push_back(size_tolerance(e.id, *e.limits));
   }
 }

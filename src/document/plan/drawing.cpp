@@ -94,7 +94,7 @@ ordered_json json_of(const Element& e, const char* side, double z_mm,
     out["convex"] = e.cut->convex;
   }
   if (e.fit) out["fit"] = *e.fit;
-  if (e.limits) out["limits_mm"] = pair(*e.limits);
+  if (e.limits && !e.cut) out["limits_mm"] = pair(*e.limits);
   add_roughness(out, e);
   add_edges(out, e);
   add_setup(out, part, e.id);

@@ -429,8 +429,9 @@ void add_cut(Site& s, const Element& e, std::size_t index, bool inner,
              e.id)});
     return;
   }
+  const auto& ends = part::is_groove(e) ? e.cut->core : e.cut->drawn;
   const auto [low, high] =
-      std::minmax({e.left_mm, e.right_mm, e.cut->drawn.left_mm, e.cut->drawn.right_mm});
+      std::minmax({e.left_mm, e.right_mm, ends.left_mm, ends.right_mm});
   const CutElement c{e.id,
                      *e.cut,
                      inner,

@@ -127,7 +127,7 @@ struct CutElement {
   double length_mm, small_mm, large_mm;  ///< blank and drawn diameters together
   double bored_mm;                       ///< of the blank, what an inner tool enters
   Surroundings around;
-  double root_h() const { return around.h0 - cut.depth_mm; }
+  double root_h() const { return (inner ? -1 : 1) * cut.core.left_mm / 2; }
 };
 
 /// Whether material before the free end is in the way of an operation that begins at a

@@ -556,17 +556,18 @@ ThreadRoom thread_room(const PreparedPart& p, std::size_t setup, const Element& 
     if (!made_here[e.index]) return {stock_h(e), stock_h(e)};
     if (const auto seen = drawn(p, e, element.inner)) return {seen->h0, seen->h1};
     const auto& cut = element.inner ? d.inner[e.index].cut : d.outer[e.index].cut;
-    const double floor = (element.inner ? -1 : 1) * cut->drawn.left_mm / 2;
+    const double floor = (element.inner ? -1 : 1) * cut->core.left_mm / 2;
     return {floor, floor};
   };
   std::size_t k = 0;
   while (all[k].index != element.index) ++k;
+  const double drawn_h = all[k].h0 - all[k].moved;
   ThreadRoom room{kInfinity};
   for (std::size_t j = k; j-- > 0;) {
     const auto [begin, end] = tops(all[j]);
     const double top = std::max(begin, end);
     if (!(top > root_h + kSame_mm)) continue;
-    if (begin < end && !(top > all[k].h0 + kSame_mm)) {
+    if (begin < end && !(top > drawn_h + kSame_mm)) {
       // Of a cone, as far as it is above the root; of an arc, all of it.
       const double from =
           is_arc(p, all[j], element.inner) ? begin : std::max(begin, root_h);

@@ -24,6 +24,13 @@ double radius_to_middle_mm(const part::Limits& size) {
   return (size.lower_mm + size.upper_mm) / 4;
 }
 
+// Of a thread that is cut into a blank of its crests' height; none of other elements.
+template <class Element>
+const part::Limits* limits_of_crests(const Element& e) {
+  const bool thread = e.cut && e.cut->kind == part::CutKind::thread;
+  return thread && e.limits ? &*e.limits : nullptr;
+}
+
 // The faces of a length from left to right.
 struct Length {
   std::string a, b;
@@ -120,16 +127,26 @@ std::unordered_map<std::string_view, double> to_middles_mm(const part::Drawing& 
   std::unordered_map<std::string_view, double> all;
   for (const auto& t : d.tolerances)
     if (is_size(t)) all.try_emplace(t.of, radius_to_middle_mm(*t.limits));
-  const auto erase_cut = [&](const auto& elements) {
-    for (const auto& e : elements)
+  const auto of_cuts = [&](const auto& elements) {
+    for (const auto& e : elements) {
       if (e.cut) all.erase(e.id);
+      if (const auto* crests = limits_of_crests(e))
+        all.emplace(e.id, radius_to_middle_mm(*crests));
+    }
   };
-  erase_cut(d.outer);
-  erase_cut(d.inner);
+  of_cuts(d.outer);
+  of_cuts(d.inner);
   return all;
 }
 
 const part::Limits* turned_to_limits(const part::Drawing& d, const std::string& element) {
+  const auto of_thread = [&](const auto& elements) -> const part::Limits* {
+    for (const auto& e : elements)
+      if (e.id == element) return limits_of_crests(e);
+    return nullptr;
+  };
+  if (const auto* outside = of_thread(d.outer)) return outside;
+  if (const auto* inside = of_thread(d.inner)) return inside;
   if (part::has_cut(d, element)) return nullptr;
   for (const auto& t : d.tolerances)
     if (is_size(t) && t.of == element) return &*t.limits;

@@ -39,12 +39,12 @@ bool has_run_in(const part::Drawing& d, End free, std::size_t i) {
   const auto& outer = d.outer;
   const auto& thread = outer[i].cut;
   if (!thread || thread->kind != part::CutKind::thread) return true;
-  const double D = outer[i].left_mm, root = D - 2 * thread->depth_mm;
+  const double D = outer[i].left_mm, root = thread->core.left_mm;
   const std::size_t step = free == End::right ? 1 : SIZE_MAX;
   double room = 0;
   for (std::size_t k = i + step; k < outer.size(); k += step) {
     const auto& e = outer[k];
-    const double floor = part::is_groove(e) ? e.cut->drawn.left_mm : INFINITY;
+    const double floor = part::is_groove(e) ? e.cut->core.left_mm : INFINITY;
     const double low = std::min({floor, e.left_mm, e.right_mm});
     const double high = std::min(floor, std::max(e.left_mm, e.right_mm));
     if ((low >= root && high > root) || high > D)

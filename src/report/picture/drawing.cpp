@@ -78,7 +78,8 @@ std::string id_and_size(const part::Drawing& d, const Element& e) {
            plain(part::across_mm(d.stock));
   const auto size = e.cut ? e.cut->drawn : part::Ends{e.left_mm, e.right_mm};
   if (e.cut && e.cut->kind == part::CutKind::thread)
-    return id + "  M" + plain(size.left_mm) + "\u00d7" + plain(e.cut->pitch_mm);
+    return id + "  M" + plain(size.left_mm) + "\u00d7" + plain(e.cut->pitch_mm) +
+           (e.fit ? '-' + *e.fit : "");
   std::string text = id + "  \u00d8" + plain(size.left_mm);
   if (e.cut && e.cut->kind == part::CutKind::knurl)
     text += ' ' + part::designation(part::Knurl{e.cut->knurl, e.cut->pitch_mm});

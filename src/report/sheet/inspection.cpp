@@ -194,10 +194,10 @@ void add_threads(std::vector<Check>& all, const PreparedPart& p,
     if (!e.cut || e.cut->kind != part::CutKind::thread ||
         planning::setup_of(p, e.id) != index)
       return;
-    all.push_back(
-        {fmt::format("M{}\u00d7{}", plain(e.cut->drawn.left_mm), plain(e.cut->pitch_mm)),
-         e.id, tr("go, no-go"), tr("not predicted"), gauge,
-         when(p, finishing_tool(tools, setup, e.id), false)});
+    all.push_back({fmt::format("M{}\u00d7{}{}", plain(e.cut->drawn.left_mm),
+                               plain(e.cut->pitch_mm), e.fit ? '-' + *e.fit : ""),
+                   e.id, tr("go, no-go"), tr("not predicted"), gauge,
+                   when(p, finishing_tool(tools, setup, e.id), false)});
   };
   for (const auto& e : p.drawing.outer) add(e, tr("thread rings"));
   for (const auto& e : p.drawing.inner) add(e, tr("thread plug"));

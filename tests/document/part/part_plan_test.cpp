@@ -493,6 +493,8 @@ TEST(PartPlan, BlanksAreTurnedAndWhatIsCutIntoThemKept) {
   EXPECT_EQ(outer[0].cut->pitch_mm, 2.5);  // coarse
   EXPECT_EQ(outer[1].left_mm, 20);         // the smaller neighbour's
   EXPECT_EQ(outer[1].cut->drawn.left_mm, 16);
+  EXPECT_NEAR(outer[1].cut->core.left_mm, 15.95, 1e-12);
+  EXPECT_NEAR(outer[1].cut->depth_mm, (20 - 15.95) / 2, 1e-12);
   EXPECT_NEAR(outer[3].left_mm, 30 + 2 * (40 - std::sqrt(1500)), 1e-9);
   EXPECT_FALSE(outer[2].cut);
   for (const auto& t : loaded.plan.drawing.tolerances)
@@ -513,7 +515,7 @@ TEST(PartPlan, ADesignationIsDiameterAndPitch) {
   for (const auto& [text, pitch] : {std::pair{"M20x1.5", 1.5}, {"M20", 2.5}}) {
     document["outer"][0]["designation"] = text;
     const auto part = load(document).plan.drawing;
-    EXPECT_EQ(part.outer[0].left_mm, 20) << text;
+    EXPECT_EQ(part.outer[0].cut->drawn.left_mm, 20) << text;
     EXPECT_EQ(part.outer[0].cut->pitch_mm, pitch) << text;
   }
   document["outer"][0]["designation"] = "M0x1";
@@ -542,13 +544,108 @@ TEST(PartPlan, AGrooveInABoreHasTheLargerNeighboursBlank) {
     const auto inner = load(document).plan.drawing.inner;
     EXPECT_EQ(inner[1].left_mm, 30) << from;
     EXPECT_NEAR(inner[2].left_mm, 24 - 1.0825318 * 2, 1e-6) << from;
-    EXPECT_EQ(inner[2].cut->core.left_mm, 24) << from;
+    // M24x2-6H of ISO 965-2: D1 21.835 to 22.210, pitch diameter 0 to 0.224 above.
+    EXPECT_NEAR(inner[2].limits->upper_mm, 22.210 - 21.835, 0.012) << from;
+    EXPECT_NEAR(inner[2].cut->core.left_mm, 24.112, 0.004) << from;
     document["inner"][1]["diameter_mm"] = 30;
     EXPECT_EQ(
         refusal(document),
         "t: /inner/1/diameter_mm: got 30, expected more than the 30 mm of b1 beside "
         "the groove");
   }
+}
+
+TEST(PartPlan, AGroovesFloorIsCutToTheMiddleOfItsLimits) {
+  auto document = with_cuts();
+  auto& groove = document["outer"][1];
+  groove["fit"] = "h11";  // 0 to -0.11 of 16 mm
+  const auto floor = [&] { return load(document).plan.drawing.outer[1].cut->core; };
+  EXPECT_NEAR(floor().left_mm, 16 - 0.055, 1e-12);
+  EXPECT_EQ(floor().left_mm, floor().right_mm);
+  groove.erase("fit");
+  EXPECT_EQ(floor().left_mm, 16);
+  groove["limits_mm"] = {3, 5};
+  EXPECT_EQ(
+      refusal(document),
+      "t: /outer/1/limits_mm: got [3,5], expected limits whose middle, 20 mm, leaves "
+      "a groove in th1 beside it, which is cut to 19.7927 mm");
+}
+
+// Beside a cylinder that is cut lower than it is drawn.
+TEST(PartPlan, AGrooveLiesBelowWhatIsCutBesideIt) {
+  auto document = with_cuts();
+  auto& outer = document["outer"];
+  outer.erase(0);
+  outer[0]["diameter_mm"] = 29.8;
+  EXPECT_NO_THROW(load(document));
+  outer[1]["limits_mm"] = {-0.4, -0.2};
+  EXPECT_EQ(refusal(document),
+            "t: /outer/0/diameter_mm: got 29.8, expected limits whose middle, 29.8 mm, "
+            "leaves a groove in d1 beside it, which is cut to 29.7 mm");
+}
+
+TEST(PartPlan, ANecksFloorsAreCutToTheMiddleOfTheirLimits) {
+  auto document = with_cuts();
+  document["outer"] = {
+      {{"id", "a"}, {"kind", "cylinder"}, {"length_mm", 50}, {"diameter_mm", 40}},
+      {{"id", "n"},
+       {"kind", "cylinder"},
+       {"length_mm", 5},
+       {"diameter_mm", 30},
+       {"limits_mm", {-0.4, 0.2}}},
+      {{"id", "b"}, {"kind", "cylinder"}, {"length_mm", 50}, {"diameter_mm", 44}}};
+  const auto neck = load(document).plan.drawing.outer[1];
+  ASSERT_TRUE(part::is_groove(neck));
+  EXPECT_EQ(neck.left_mm, 40);
+  EXPECT_EQ(neck.cut->drawn.left_mm, 30);
+  EXPECT_NEAR(neck.cut->core.left_mm, 29.9, 1e-12);
+}
+
+TEST(PartPlan, AThreadHasTheLimitsOfItsClass) {
+  auto document = with_cuts();
+  auto& thread = document["outer"][0];
+  const auto expect = [&](double lower_mm, double upper_mm) {
+    const auto limits = load(document).plan.drawing.outer[0].limits;
+    ASSERT_TRUE(limits);
+    EXPECT_NEAR(limits->lower_mm, lower_mm, 0.006) << thread;
+    EXPECT_NEAR(limits->upper_mm, upper_mm, 0.001) << thread;
+  };
+  expect(19.623 - 20, 19.958 - 20);  // 6g of ISO 965-2
+  EXPECT_EQ(assumed(load(document), "/outer/0/fit")->value, "6g");
+  thread["fit"] = "6h";
+  expect(19.665 - 20, 0);
+  thread.erase("fit");
+  thread["limits_mm"] = {-0.3, -0.1};  // of the crests
+  expect(-0.3, -0.1);
+  thread.erase("limits_mm");
+  thread.erase("diameter_mm");
+  thread["designation"] = "3/4-10 UNC-3A";  // 0.7500 to 0.7371 in of ASME B1.1
+  expect(25.4 * (0.7371 - 0.75), 0);
+  EXPECT_FALSE(assumed(load(document), "/outer/0/fit"));
+  thread["designation"] = "3/4-10 UNC";
+  EXPECT_EQ(assumed(load(document), "/outer/0/fit")->value, "2A");
+  for (const auto& t : load(document).plan.drawing.tolerances) EXPECT_NE(t.of, "th1");
+}
+
+TEST(PartPlan, AThreadsClassIsOneOfItsSide) {
+  auto document = with_cuts();
+  auto& thread = document["outer"][0];
+  thread["fit"] = "6H";
+  EXPECT_EQ(
+      refusal(document),
+      "t: /outer/0/fit: got \"6H\", expected an outer thread's tolerance class like "
+      "\"6g\" or \"2A\"");
+  thread.erase("diameter_mm");
+  thread["fit"] = "2A";
+  thread["designation"] = "3/4-10 UNC-2A";
+  EXPECT_EQ(refusal(document),
+            "t: /outer/0/fit: got \"2A\", expected designation with a class, or fit, not "
+            "both");
+  thread.erase("fit");
+  thread["designation"] = "3/4-10 UNC-2B";
+  EXPECT_EQ(refusal(document),
+            "t: /outer/0/designation: got \"3/4-10 UNC-2B\", expected an outer thread's "
+            "tolerance class like \"6g\" or \"2A\"");
 }
 
 TEST(PartPlan, FixedToolsAreThoseListedAndElseTheCatalogues) {

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "svg_check.hpp"
+#include "turnwright/part/thread.hpp"
 #include "turnwright/planning/prepare.hpp"
 
 namespace turnwright::report::drawing_test {
@@ -370,7 +371,7 @@ TEST(SetupDrawings, ShowWhatIsCutIntoABlank) {
   const auto has = [](const std::string& svg, const std::string& text) {
     return svg.find(text) != std::string::npos;
   };
-  EXPECT_TRUE(has(drawn(part::groove(30, 26)), "\u00d826 k6"));
+  EXPECT_TRUE(has(drawn(part::groove(30, 26, 26)), "\u00d826 k6"));
   const auto thread = drawn(part::thread(30, 2, part::Where::outside));
   EXPECT_TRUE(has(thread, "M30\u00d72"));
   const auto arc = drawn(part::arc(66, {30, 30}, 200, false));
