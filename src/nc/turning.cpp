@@ -180,10 +180,15 @@ std::vector<Point> crossing(const Pass& p, std::size_t k) {
   const double falls = from.back().h_mm - to[0].h_mm, rises_rad = *p.tool().rises_rad;
   const double arc = r * (1 - std::cos(rises_rad));
   if (falls > arc) {
-    const double z = from.back().z_mm - r - r * std::sin(rises_rad);
+    // Down a line through the edge until the corner stands on what follows.
     const Normal down{std::cos(rises_rad), -std::sin(rises_rad)};
-    return {m.z == 0 ? Point{from.back().h_mm, z} : tip(from.back(), m, down, r),
-            {to[0].h_mm, z - (falls - arc) / std::tan(rises_rad)}};
+    const auto edge = tip(from.back(), down, r), foot = tip(to[0], n, r);
+    const double above = (edge.h_mm - foot.h_mm) * n.h + (edge.z_mm - foot.z_mm) * n.z;
+    const double steeper = n.z * down.h - n.h * down.z;  // sine of the angle between both
+    if (above > 0 && steeper > 0)
+      return {
+          m.z == 0 ? Point{from.back().h_mm, edge.z_mm} : tip(from.back(), m, down, r),
+          moved_along(edge, down, above / steeper)};
   }
   const auto over = across(from.back(), m, to[0], n, r);
   return {over.leave, over.meet};

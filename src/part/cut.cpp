@@ -5,12 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 #include "turnwright/base/language.hpp"
 #include "turnwright/base/pattern.hpp"
-#include "turnwright/base/units.hpp"
 
 namespace turnwright::part {
 namespace {

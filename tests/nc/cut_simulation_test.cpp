@@ -100,7 +100,7 @@ TEST_P(CutSimulationOfRandomParts, OfAForgingLeavesTheDrawing) {
 
 // No tool meets the live centre either.
 TEST_P(CutSimulationOfRandomParts, OnALiveCentreLeavesTheDrawing) {
-  const int parts = parts_to_try(30);
+  const int parts = parts_to_try(50);
   int made = 0, solid = 0;
   for (int seed = 1 + GetParam(); seed <= parts; seed += kSideBySide) {
     auto document = RandomPart(static_cast<std::uint32_t>(seed)).document();

@@ -33,7 +33,7 @@ class Sizes {
       if (t.of == id && t.kind == part::ToleranceKind::diameter && !cut(id))
         sum += (t.limits->lower_mm + t.limits->upper_mm) / 2 / 2;
     const auto crests = [&](const auto& e) {
-      if (e.id == id && e.cut && e.limits)
+      if (e.id == id && e.cut && e.cut->kind == part::CutKind::thread && e.limits)
         sum += (e.limits->lower_mm + e.limits->upper_mm) / 2 / 2;
     };
     std::ranges::for_each(p_.part.drawing.outer, crests);

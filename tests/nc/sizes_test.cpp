@@ -185,6 +185,32 @@ TEST(NcSizes, BehindASteepConeMayBeLowerThanItsEnd) {
   }
 }
 
+// A cone behind a cylinder that is drawn a little higher than the cylinder and cut lower, or
+// the reverse.
+TEST(NcSizes, AConeMayBeginLowerThanTheCylinderInFrontIsCut) {
+  for (const double drawn_mm : {39.9, 40.}) {
+    auto document =
+        bush(json::array({{{"id", "c"},
+                           {"kind", "cone"},
+                           {"length_mm", 6},
+                           {"left_mm", 44},
+                           {"right_mm", 40}},
+                          cylinder("d", drawn_mm, 20, 40.4 - drawn_mm, 40.5 - drawn_mm)}),
+             json::array({cylinder("b", 30, 20, -0.25, -0.2),
+                          {{"id", "m"},
+                           {"kind", "cone"},
+                           {"length_mm", 6},
+                           {"left_mm", 28},
+                           {"right_mm", 29.9}}}));
+    document["stock"].update(
+        {{"outer_mm", 48}, {"length_mm", 58}, {"left_allowance_mm", 30}});
+    document["setups"] = {{{"hold", "left"}, {"grip_mm", 28}, {"clampings", {"chuck"}}}};
+    const auto& p = planned(document);
+    ASSERT_EQ(p.plan.status, planning::PlanStatus::ok) << drawn_mm;
+    EXPECT_EQ(found(p, {Fault::gouge, Fault::left, Fault::lean}), "") << drawn_mm;
+  }
+}
+
 // The least X of the feeds, or the largest in a bore, of the step that makes an element.
 double deepest_x_mm(const Planned& p, const std::string& step_of, bool inside) {
   double deepest = inside ? 0 : INFINITY;
@@ -226,6 +252,35 @@ TEST(NcSizes, GroovesAndThreadsAreCutToTheMiddleOfTheirLimits) {
   EXPECT_NEAR(deepest_x_mm(p, "thread-th", false), 36 - 1.22687 * 2 - (34.701 - 34.578),
               0.005);
   EXPECT_NEAR(deepest_x_mm(p, "finish-th", false), (35.962 + 35.682) / 2, 0.004);
+}
+
+// The blank of a groove beside a thread is cut as low as the thread's crests; its finishing
+// takes what the plan says, and a chamfer at its rim ends above its floor.
+TEST(NcSizes, AGroovesBlankIsAsLowAsTheThreadBesideIt) {
+  auto document = bush(
+      json::array(
+          {{{"id", "t"}, {"kind", "thread"}, {"length_mm", 20}, {"designation", "M36"}},
+           {{"id", "g"}, {"kind", "groove"}, {"length_mm", 6}, {"diameter_mm", 34}},
+           cylinder("d", 52, 34, -0.1, 0.1)}),
+      json::array({cylinder("b", 24, 60, -0.1, 0.1)}));
+  document["edges"] = {{{"at", "g|t"}, {"chamfer_mm", 0.75}}};
+  const auto& p = planned(document);
+  ASSERT_EQ(p.plan.status, planning::PlanStatus::ok);
+  // M36-6g of ISO 965-2, whose widths are rounded by up to 6 %.
+  EXPECT_NEAR(deepest_x_mm(p, "finish-g", false), (35.940 + 35.465) / 2, 0.015);
+  EXPECT_NEAR(deepest_x_mm(p, "groove-g", false), 34, 1e-6);
+  int compared = 0;
+  for (const auto& s : p.plan.setups)
+    for (const auto& o : s.operations)
+      if (o.on[0] == "g" && o.kind == planning::OperationKind::finish) {
+        const double roughed = deepest_x_mm(p, "rough-g", false);
+        EXPECT_NEAR((roughed - deepest_x_mm(p, "finish-g", false)) / 2, o.passes[0].ap_mm,
+                    1e-3);
+        ++compared;
+      }
+  EXPECT_EQ(compared, 1);
+  document["edges"][0]["chamfer_mm"] = 0.9;
+  EXPECT_ANY_THROW(planned(document));
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <string_view>
 
 /// Unified inch threads (UNC, UNF, UNEF, UNS, UN), which have the basic profile of ISO 68-1
-/// as metric ones do, so that part::thread (cut.hpp) has their diameters.
+/// as metric ones do, so that part::thread (thread.hpp) has their diameters.
 namespace turnwright::part {
 
 inline constexpr double kInch_mm = 25.4;  ///< by definition

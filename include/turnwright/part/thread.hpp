@@ -31,7 +31,8 @@ namespace turnwright::part {
 ///          at least 0.23 P - 1.5 P^2 or, from P = 1/12 in on, 0.12 P; at most 0.394 P  (6)
 ///
 /// Source: ISO 965-1, whose tables round the widths to the series R 40, and ASME B1.1, with
-/// the diameter as length of engagement.
+/// the diameter as length of engagement, as of UNC and UNF; the other series may have T2 up
+/// to 0.1 mm wider.
 struct ThreadLimits {
   Limits pitch = {}, crest = {};
 };

@@ -19,7 +19,8 @@ using part::CutKind;
 using part::Where;
 
 // The limits_mm, beside what is left to the tool.
-std::optional<part::Limits> read_demands(Draft& draft, Reader& r, double least_mm) {
+std::optional<part::Limits> read_demands(Draft& draft, Reader& r, double least_mm,
+                                         bool to_middle) {
   r.optional_number("Ra_um", above_up_to(0, 100, "um"));
   r.optional_number("Rz_um", above_up_to(0, 400, "um"));
   std::optional<part::Limits> limits;
@@ -28,7 +29,7 @@ std::optional<part::Limits> read_demands(Draft& draft, Reader& r, double least_m
     r.problem_at("limits_mm", tr("limits that leave a diameter > 0 mm"), "conflict");
   if (r.has("fit") && limits)
     r.problem_at("limits_mm", tr("fit or limits_mm, not both"), "conflict");
-  leave_to_the_tool(draft, r);
+  leave_to_the_tool(draft, r, to_middle);
   return limits;
 }
 
@@ -79,6 +80,7 @@ Size read_thread_size(Draft& draft, Reader& r) {
     s.P_mm = *coarse;
     draft.assume(r.pointer_of("pitch_mm"), s.P_mm, tr("the coarse pitch of ISO 261"));
   }
+  s.inch = part::inch_designation(s.d_mm, s.P_mm).has_value();
   return s;
 }
 
@@ -91,10 +93,12 @@ struct Thread {
 // The class of the drawing, or the usual one.
 Thread read_thread_class(Draft& draft, Reader& r, const Size& s, Where where) {
   const bool outside = where == Where::outside, named = !s.tolerance_class.empty();
-  if (named && r.has("fit"))
-    r.problem_at("fit", tr("designation with a class, or fit, not both"), "conflict");
+  const auto fit = r.optional_text("fit", 8).value_or("");
+  if (named && !fit.empty() && fit != s.tolerance_class)
+    r.problem_at("fit", say("{} as in the designation, or no fit", s.tolerance_class),
+                 "conflict");
   Thread t;
-  t.tolerance_class = named ? s.tolerance_class : r.optional_text("fit", 8).value_or("");
+  t.tolerance_class = named ? s.tolerance_class : fit;
   if (t.tolerance_class.empty()) {
     t.tolerance_class = s.inch ? outside ? "2A" : "2B" : outside ? "6g" : "6H";
     if (!r.has("fit"))
@@ -116,8 +120,17 @@ Thread read_thread_class(Draft& draft, Reader& r, const Size& s, Where where) {
 Thread read_thread(Draft& draft, Reader& r, Where where) {
   const auto s = read_thread_size(draft, r);
   auto t = read_thread_class(draft, r, s, where);
-  const auto given = read_demands(draft, r, s.d_mm);
-  if (given && where == Where::outside) t.limits.crest = *given;
+  const auto given =
+      read_demands(draft, r, s.d_mm, where == Where::outside || r.has("fit"));
+  if (given && where == Where::outside) {
+    t.limits.crest = *given;
+    if (std::max(-given->lower_mm, given->upper_mm) > s.P_mm / 2)
+      r.problem_at(
+          "limits_mm",
+          say("limits of the crests within half the pitch, {} mm, of the diameter",
+              number_text(s.P_mm / 2)),
+          "conflict");
+  }
   const char* key = r.has("designation") ? "designation" : "pitch_mm";
   if (!(s.d_mm > 0 && s.d_mm <= 20000 && s.P_mm > 0)) {
     if (r.has("designation") && std::isfinite(s.d_mm))
@@ -136,7 +149,7 @@ struct Diameter {
 };
 
 // Of a groove's floor or of a hole.
-Diameter read_diameter(Draft& draft, Reader& r) {
+Diameter read_diameter(Draft& draft, Reader& r, bool to_middle) {
   Diameter d{r.number("diameter_mm", kSize)};
   if (const auto fit = r.optional_text("fit", 8);
       fit && !fit->empty() && std::isfinite(d.drawn_mm)) {
@@ -146,7 +159,7 @@ Diameter read_diameter(Draft& draft, Reader& r) {
       r.problem_at("fit", say("an ISO 286 tolerance class ({})", error.what()), "choice");
     }
   }
-  if (const auto given = read_demands(draft, r, d.drawn_mm)) d.limits = given;
+  if (const auto given = read_demands(draft, r, d.drawn_mm, to_middle)) d.limits = given;
   return d;
 }
 
@@ -155,7 +168,7 @@ part::Shaped read_arc(Draft& draft, Reader& r, double length_mm) {
   const double radius = r.number("radius_mm", kSize);
   const bool convex = r.choice_or("bulge", {{"convex", true}, {"concave", false}}, true);
   if (!r.has("bulge")) draft.assume(r.pointer_of("bulge"), "convex", tr("default"));
-  read_demands(draft, r, std::min(ends.left_mm, ends.right_mm));
+  read_demands(draft, r, std::min(ends.left_mm, ends.right_mm), false);
   if (!std::isfinite(length_mm + ends.left_mm + ends.right_mm + radius)) return {};
   try {
     return part::arc(length_mm, ends, radius, convex);
@@ -176,10 +189,10 @@ void read(Draft& draft, Reader& r, Element& e, CutKind kind, Where where) {
     e.limits = t.limits.crest;
   }
   if (kind == CutKind::groove) {
-    const auto d = read_diameter(draft, r);
+    const auto d = read_diameter(draft, r, true);
     s = part::groove(d.drawn_mm, d.drawn_mm, d.drawn_mm + middle_mm(d.limits));
   }
-  if (kind == CutKind::hole) s = part::hole(read_diameter(draft, r).drawn_mm);
+  if (kind == CutKind::hole) s = part::hole(read_diameter(draft, r, false).drawn_mm);
   if (kind == CutKind::arc) s = read_arc(draft, r, e.length_mm);
   s.cut.kind = kind;
   r.finish();
@@ -225,9 +238,42 @@ std::optional<std::size_t> neighbour(const std::vector<Element>& list, std::size
   return first ? before : after;
 }
 
-const char* limits_key(Reader item) {
-  if (item.has("fit")) return "fit";
-  return item.has("limits_mm") ? "limits_mm" : "diameter_mm";
+// A floor whose middle is not below what is cut beside it.
+void refuse_floor(Reader item, const std::string& beside, double floor_mm,
+                  double made_mm) {
+  const auto made = number_text(std::round(1e4 * made_mm) / 1e4);
+  if (!item.has("fit") && !item.has("limits_mm"))
+    return item.problem_at(
+        "diameter_mm",
+        say("a groove in {} beside it, which is cut to {} mm", beside, made), "conflict");
+  item.problem_at(
+      item.has("fit") ? "fit" : "limits_mm",
+      say("limits whose middle, {} mm, leaves a groove in {} beside it, which "
+          "is cut to {} mm",
+          number_text(floor_mm), beside, made),
+      "conflict");
+}
+
+// The limits in whose middle the lowest neighbour (in a bore the widest) is cut that ends as
+// high as a groove's blank; none if none is cut lower than it is drawn.
+template <class Element>
+std::optional<part::Limits> limits_beside(const std::vector<Element>& list, std::size_t i,
+                                          double blank_mm, Where where) {
+  const double out = where == Where::outside ? 1 : -1;
+  std::optional<part::Limits> lowest;
+  for (const std::size_t k : {i - 1, i + 1})
+    if (k < list.size() && !is_groove(list[k]) && same_bore(list[k], list[i]) &&
+        towards(list, k, i) == blank_mm &&
+        out * middle_mm(list[k].limits) < out * middle_mm(lowest))
+      lowest = list[k].limits;
+  return lowest;
+}
+
+template <class Element>
+void give_limits(std::vector<Element>& list, Where where) {
+  for (std::size_t i = 0; i < list.size(); ++i)
+    if (is_groove(list[i]))
+      list[i].limits = limits_beside(list, i, list[i].left_mm, where);
 }
 
 template <class Element>
@@ -252,7 +298,8 @@ void give_blanks(std::vector<Element>& list, const std::vector<Reader>& items,
                           "conflict");
       continue;
     }
-    const double blank = towards(list, *k, i), made = blank + middle_mm(list[*k].limits);
+    const double blank = towards(list, *k, i);
+    const double made = blank + middle_mm(limits_beside(list, i, blank, where));
     const double drawn = e.cut->drawn.left_mm, floor = e.cut->core.left_mm;
     const bool outside = where == Where::outside;
     const auto reaches = [&](double d, double rim) {
@@ -266,25 +313,23 @@ void give_blanks(std::vector<Element>& list, const std::vector<Reader>& items,
                                         number_text(blank), list[*k].id),
                           "conflict");
     else if (reaches(floor, blank) || reaches(floor, made))
-      items[i].problem_at(
-          limits_key(items[i]),
-          say("limits whose middle, {} mm, leaves a groove in {} beside it, which is cut "
-              "to {} mm",
-              number_text(floor), list[*k].id, number_text(std::round(1e4 * made) / 1e4)),
-          "conflict");
+      refuse_floor(items[i], list[*k].id, floor, made);
     const auto s = part::groove(blank, drawn, floor);
     e.left_mm = e.right_mm = blank;
     e.cut = s.cut;
+    e.cut->depth_mm = std::abs(made - floor) / 2;
   }
 }
 
-// Whether something larger stands on both sides of outer element i.
+// Whether something larger stands on both sides of outer element i, as drawn and as cut.
 bool in_a_neck(const std::vector<part::OuterElement>& outer, std::size_t i) {
-  const double own = std::max(outer[i].left_mm, outer[i].right_mm);
+  const auto drawn_mm = [](const auto& e) { return std::max(e.left_mm, e.right_mm); };
+  const auto made_mm = [&](const auto& e) { return drawn_mm(e) + middle_mm(e.limits); };
   const auto larger = [&](std::size_t from, std::size_t to) {
     return std::any_of(outer.begin() + static_cast<long>(from),
                        outer.begin() + static_cast<long>(to), [&](const auto& e) {
-                         return !is_groove(e) && std::max(e.left_mm, e.right_mm) > own;
+                         return !is_groove(e) && drawn_mm(e) > drawn_mm(outer[i]) &&
+                                made_mm(e) > made_mm(outer[i]);
                        });
   };
   return larger(0, i) && larger(i + 1, outer.size());
@@ -326,11 +371,18 @@ void plunge_necks(Draft& draft, const std::vector<Reader>& items) {
 
 }  // namespace
 
-void leave_to_the_tool(Draft& draft, Reader& r) {
-  for (const char* key : {"fit", "limits_mm", "Ra_um", "Rz_um"})
+void leave_to_the_tool(Draft& draft, Reader& r, bool to_middle) {
+  for (const char* key : {"fit", "limits_mm", "Ra_um", "Rz_um"}) {
+    const bool size =
+        std::string_view(key) == "fit" || std::string_view(key) == "limits_mm";
     if (const auto value = r.find(key); value && !value->broken())
-      draft.assume(r.pointer_of(key), value->json(),
-                   tr("left to the tool at its catalogue conditions: not predicted"));
+      draft.assume(
+          r.pointer_of(key), value->json(),
+          size && to_middle
+              ? tr("cut to the middle of its limits: what the tool leaves is not "
+                   "predicted")
+              : tr("left to the tool at its catalogue conditions: not predicted"));
+  }
 }
 
 void read_cut(Draft& draft, Reader& r, part::OuterElement& e, CutKind kind) {
@@ -354,6 +406,11 @@ std::optional<std::size_t> beside(const std::vector<part::OuterElement>& list,
 std::optional<std::size_t> beside(const std::vector<part::InnerElement>& list,
                                   std::size_t groove) {
   return neighbour(list, groove, Where::inside);
+}
+
+void give_grooves_their_limits(Draft& draft) {
+  give_limits(draft.drawing().outer, Where::outside);
+  give_limits(draft.drawing().inner, Where::inside);
 }
 
 void give_grooves_their_blanks(Draft& draft, const std::vector<Reader>& outer,

@@ -224,6 +224,7 @@ LoadedPart load(const nlohmann::json& request, const Catalogue& catalogue,
     read_drilled_holes(draft);
     read_general_edges(draft);
     read_tolerances(draft);
+    give_grooves_their_limits(draft);
     read_setups(draft);
     read_operations(draft);
     read_economics(draft);

@@ -39,12 +39,13 @@ void read_catalogue_choices(Draft& draft);  // material, machine, tools
 void read_elements(Draft& draft);           // outer, inner, faces
 /// Lists sizes and roughness of a surface that is made at catalogue conditions under
 /// `assumed`: they are not judged.
-void leave_to_the_tool(Draft& draft, Reader& element);
+/// @param to_middle  sizes are cut to the middle of their limits
+void leave_to_the_tool(Draft& draft, Reader& element, bool to_middle);
 /// An element that was read as a plain one is made at catalogue conditions instead.
 template <class Element>
 void make_at_catalogue_conditions(Draft& draft, Reader item, Element& e,
                                   const part::Cut& cut) {
-  leave_to_the_tool(draft, item);
+  leave_to_the_tool(draft, item, cut.kind == part::CutKind::groove);
   e.fit.reset();
   e.limits.reset();
   e.Ra_um.reset();
@@ -54,6 +55,8 @@ void make_at_catalogue_conditions(Draft& draft, Reader item, Element& e,
 /// A groove, thread or arc; a groove's blank waits for the elements beside it.
 void read_cut(Draft& draft, Reader& r, part::OuterElement& e, part::CutKind kind);
 void read_cut(Draft& draft, Reader& r, part::InnerElement& e, part::CutKind kind);
+/// The blanks of grooves are cut as low as what is drawn as high beside them.
+void give_grooves_their_limits(Draft& draft);  // after the tolerances
 void give_grooves_their_blanks(Draft& draft, const std::vector<Reader>& outer,
                                const std::vector<Reader>& inner);
 /// The index of the element whose diameter a groove's blank has, in either list.

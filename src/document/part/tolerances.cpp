@@ -223,7 +223,7 @@ template <class Element>
 void take_diameter(Reader& r, const part::Tolerance& t, std::vector<Element>& elements) {
   for (auto& e : elements) {
     if (e.id != t.of) continue;
-    if (e.limits)
+    if (e.limits && !e.cut)
       r.problem_at("of", tr("a diameter without fit, limits_mm or another tolerance"),
                    "conflict");
     e.limits = t.limits;

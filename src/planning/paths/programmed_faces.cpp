@@ -24,11 +24,10 @@ double radius_to_middle_mm(const part::Limits& size) {
   return (size.lower_mm + size.upper_mm) / 4;
 }
 
-// Of a thread that is cut into a blank of its crests' height; none of other elements.
+// Of the blank that a thread or a groove is cut into; none of other elements.
 template <class Element>
-const part::Limits* limits_of_crests(const Element& e) {
-  const bool thread = e.cut && e.cut->kind == part::CutKind::thread;
-  return thread && e.limits ? &*e.limits : nullptr;
+const part::Limits* limits_of_blank(const Element& e) {
+  return e.cut && e.limits ? &*e.limits : nullptr;
 }
 
 // The faces of a length from left to right.
@@ -130,8 +129,8 @@ std::unordered_map<std::string_view, double> to_middles_mm(const part::Drawing& 
   const auto of_cuts = [&](const auto& elements) {
     for (const auto& e : elements) {
       if (e.cut) all.erase(e.id);
-      if (const auto* crests = limits_of_crests(e))
-        all.emplace(e.id, radius_to_middle_mm(*crests));
+      if (const auto* blank = limits_of_blank(e))
+        all.emplace(e.id, radius_to_middle_mm(*blank));
     }
   };
   of_cuts(d.outer);
@@ -140,13 +139,13 @@ std::unordered_map<std::string_view, double> to_middles_mm(const part::Drawing& 
 }
 
 const part::Limits* turned_to_limits(const part::Drawing& d, const std::string& element) {
-  const auto of_thread = [&](const auto& elements) -> const part::Limits* {
+  const auto of_cut = [&](const auto& elements) -> const part::Limits* {
     for (const auto& e : elements)
-      if (e.id == element) return limits_of_crests(e);
+      if (e.id == element) return limits_of_blank(e);
     return nullptr;
   };
-  if (const auto* outside = of_thread(d.outer)) return outside;
-  if (const auto* inside = of_thread(d.inner)) return inside;
+  if (const auto* outside = of_cut(d.outer)) return outside;
+  if (const auto* inside = of_cut(d.inner)) return inside;
   if (part::has_cut(d, element)) return nullptr;
   for (const auto& t : d.tolerances)
     if (is_size(t) && t.of == element) return &*t.limits;

@@ -15,6 +15,7 @@
 #include "setup_view.hpp"
 #include "spread.hpp"
 #include "svg.hpp"
+#include "thread_label.hpp"
 #include "turnwright/base/units.hpp"
 
 namespace turnwright::report {
@@ -78,8 +79,7 @@ std::string id_and_size(const part::Drawing& d, const Element& e) {
            plain(part::across_mm(d.stock));
   const auto size = e.cut ? e.cut->drawn : part::Ends{e.left_mm, e.right_mm};
   if (e.cut && e.cut->kind == part::CutKind::thread)
-    return id + "  M" + plain(size.left_mm) + "\u00d7" + plain(e.cut->pitch_mm) +
-           (e.fit ? '-' + *e.fit : "");
+    return id + "  " + thread_label(*e.cut);
   std::string text = id + "  \u00d8" + plain(size.left_mm);
   if (e.cut && e.cut->kind == part::CutKind::knurl)
     text += ' ' + part::designation(part::Knurl{e.cut->knurl, e.cut->pitch_mm});

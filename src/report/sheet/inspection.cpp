@@ -11,6 +11,7 @@
 #include "planning/clamping/made_surfaces.hpp"
 #include "planning/setup/edge_schedule.hpp"
 #include "report/picture/svg.hpp"
+#include "report/picture/thread_label.hpp"
 #include "report/text/plan_words.hpp"
 #include "report/text/result_words.hpp"
 #include "turnwright/base/units.hpp"
@@ -194,10 +195,8 @@ void add_threads(std::vector<Check>& all, const PreparedPart& p,
     if (!e.cut || e.cut->kind != part::CutKind::thread ||
         planning::setup_of(p, e.id) != index)
       return;
-    all.push_back({fmt::format("M{}\u00d7{}{}", plain(e.cut->drawn.left_mm),
-                               plain(e.cut->pitch_mm), e.fit ? '-' + *e.fit : ""),
-                   e.id, tr("go, no-go"), tr("not predicted"), gauge,
-                   when(p, finishing_tool(tools, setup, e.id), false)});
+    all.push_back({thread_label(*e.cut), e.id, tr("go, no-go"), tr("not predicted"),
+                   gauge, when(p, finishing_tool(tools, setup, e.id), false)});
   };
   for (const auto& e : p.drawing.outer) add(e, tr("thread rings"));
   for (const auto& e : p.drawing.inner) add(e, tr("thread plug"));

@@ -494,7 +494,8 @@ TEST(PartPlan, BlanksAreTurnedAndWhatIsCutIntoThemKept) {
   EXPECT_EQ(outer[1].left_mm, 20);         // the smaller neighbour's
   EXPECT_EQ(outer[1].cut->drawn.left_mm, 16);
   EXPECT_NEAR(outer[1].cut->core.left_mm, 15.95, 1e-12);
-  EXPECT_NEAR(outer[1].cut->depth_mm, (20 - 15.95) / 2, 1e-12);
+  const double crests = 20 + (19.958 + 19.623 - 40) / 2;  // M20-6g of ISO 965-2
+  EXPECT_NEAR(outer[1].cut->depth_mm, (crests - 15.95) / 2, 0.003);
   EXPECT_NEAR(outer[3].left_mm, 30 + 2 * (40 - std::sqrt(1500)), 1e-9);
   EXPECT_FALSE(outer[2].cut);
   for (const auto& t : loaded.plan.drawing.tolerances)
@@ -571,17 +572,27 @@ TEST(PartPlan, AGroovesFloorIsCutToTheMiddleOfItsLimits) {
       "a groove in th1 beside it, which is cut to 19.7927 mm");
 }
 
-// Beside a cylinder that is cut lower than it is drawn.
+// Beside a cylinder, on either side, that is cut lower than it is drawn.
 TEST(PartPlan, AGrooveLiesBelowWhatIsCutBesideIt) {
-  auto document = with_cuts();
-  auto& outer = document["outer"];
-  outer.erase(0);
-  outer[0]["diameter_mm"] = 29.8;
-  EXPECT_NO_THROW(load(document));
-  outer[1]["limits_mm"] = {-0.4, -0.2};
-  EXPECT_EQ(refusal(document),
-            "t: /outer/0/diameter_mm: got 29.8, expected limits whose middle, 29.8 mm, "
-            "leaves a groove in d1 beside it, which is cut to 29.7 mm");
+  for (const bool mirrored : {false, true}) {
+    auto document = with_cuts();
+    auto& outer = document["outer"];
+    outer = {
+        {{"id", "d1"}, {"kind", "cylinder"}, {"length_mm", 50}, {"diameter_mm", 30}},
+        {{"id", "g1"}, {"kind", "groove"}, {"length_mm", 3}, {"diameter_mm", 29.8}},
+        {{"id", "d2"}, {"kind", "cylinder"}, {"length_mm", 50}, {"diameter_mm", 30}}};
+    auto& lower = outer[mirrored ? 0 : 2];
+    EXPECT_NO_THROW(load(document));
+    lower["limits_mm"] = {-0.4, -0.2};
+    EXPECT_EQ(refusal(document),
+              "t: /outer/1/diameter_mm: got 29.8, expected a groove in d1 "
+              "beside it, which is cut to 29.7 mm");
+    outer[1]["limits_mm"] = {-0.4, 0};
+    const auto groove = load(document).plan.drawing.outer[1];
+    EXPECT_NEAR(groove.cut->depth_mm, (29.7 - 29.6) / 2, 1e-12);
+    ASSERT_TRUE(groove.limits);  // of its blank
+    EXPECT_EQ(groove.limits->lower_mm, -0.4);
+  }
 }
 
 TEST(PartPlan, ANecksFloorsAreCutToTheMiddleOfTheirLimits) {
@@ -627,6 +638,25 @@ TEST(PartPlan, AThreadHasTheLimitsOfItsClass) {
   for (const auto& t : load(document).plan.drawing.tolerances) EXPECT_NE(t.of, "th1");
 }
 
+TEST(PartPlan, AThreadsCrestsStandAboveItsRoot) {
+  auto document = with_cuts();
+  document["outer"][0]["limits_mm"] = {-1.3, -1};
+  EXPECT_EQ(refusal(document),
+            "t: /outer/0/limits_mm: got [-1.3,-1], expected limits of the crests within "
+            "half the pitch, 1.25 mm, of the diameter");
+  document["outer"][0]["limits_mm"] = {-1.2, -1};
+  EXPECT_NO_THROW(load(document));
+}
+
+TEST(PartPlan, DiameterAndPitchOfAnInchThreadHaveItsUsualClass) {
+  auto document = with_cuts();
+  auto& thread = document["outer"][0];
+  thread["diameter_mm"] = 25.4 / 2;
+  thread["pitch_mm"] = 25.4 / 13;
+  document["outer"][1]["diameter_mm"] = 9;
+  EXPECT_EQ(assumed(load(document), "/outer/0/fit")->value, "2A");
+}
+
 TEST(PartPlan, AThreadsClassIsOneOfItsSide) {
   auto document = with_cuts();
   auto& thread = document["outer"][0];
@@ -636,11 +666,10 @@ TEST(PartPlan, AThreadsClassIsOneOfItsSide) {
       "t: /outer/0/fit: got \"6H\", expected an outer thread's tolerance class like "
       "\"6g\" or \"2A\"");
   thread.erase("diameter_mm");
-  thread["fit"] = "2A";
+  thread["fit"] = "1A";
   thread["designation"] = "3/4-10 UNC-2A";
   EXPECT_EQ(refusal(document),
-            "t: /outer/0/fit: got \"2A\", expected designation with a class, or fit, not "
-            "both");
+            "t: /outer/0/fit: got \"1A\", expected 2A as in the designation, or no fit");
   thread.erase("fit");
   thread["designation"] = "3/4-10 UNC-2B";
   EXPECT_EQ(refusal(document),

@@ -60,6 +60,14 @@ json grooved() {
 }
 
 // pi (r0^2 - r1^2)/(1000 vc f) where no spindle limit comes in between.
+// Of M30x1.5-6g: the middles of the pitch diameter and of the major one below the basic ones,
+// and how much deeper than h3 the thread is cut from there.
+const double kPitchBelow_mm =
+    (31.5 + 45 * std::pow(1.5, 0.4) * std::pow(22.4 * 45, 0.05)) / 1000;
+const double kMajorBelow_mm =
+    (31.5 + 90 * std::pow(1.5, 2.0 / 3) - 1.575 / std::sqrt(1.5)) / 1000;
+const double kDeeper_mm = (kPitchBelow_mm - kMajorBelow_mm) / 2;
+
 TEST(Groove, TakesTheTimeOfItsRings) {
   const auto p = as_in_catalogue(grooved());
   const auto r = plan(p);
@@ -78,9 +86,10 @@ TEST(Groove, TakesTheTimeOfItsRings) {
               1e-6);
   const double edges = time / at.T_min;
   // From 1 mm above at feed, 0.2 mm beside the wall behind, down to there from 2 mm outside
-  // the stock of 42 mm and back.
+  // the stock of 42 mm and back; the blank is as low as the crests of the thread beside it.
   const double above = 1.2 / (at.f_mm_rev * 1000 * at.vc_m_min / (units::kPi * 30));
-  const double way = 2 * (21 + 2 - 15 - 1) + 2 + 1;
+  const double low = kMajorBelow_mm / 2;
+  const double way = 2 * (21 + 2 - (15 - low) - 1) + (2 - low) + 1;
   EXPECT_NEAR(o.cost,
               1.0 * (time + above + way / p.machine.rapid_mm_min + edges * t.change_min) +
                   edges * t.edge_cost,
@@ -114,14 +123,6 @@ TEST(Groove, TakesAThousandPlungesAtMost) {
     EXPECT_EQ(r.conflicts[0].sentence, "groove g1: it would take more than 1000 passes");
   }
 }
-
-// Of M30x1.5-6g: the middles of the pitch diameter and of the major one below the basic ones,
-// and how much deeper than h3 the thread is cut from there.
-const double kPitchBelow_mm =
-    (31.5 + 45 * std::pow(1.5, 0.4) * std::pow(22.4 * 45, 0.05)) / 1000;
-const double kMajorBelow_mm =
-    (31.5 + 90 * std::pow(1.5, 2.0 / 3) - 1.575 / std::sqrt(1.5)) / 1000;
-const double kDeeper_mm = (kPitchBelow_mm - kMajorBelow_mm) / 2;
 
 TEST(Thread, TurnsItsLengthPitchByPitch) {
   const auto p = as_in_catalogue(grooved());
@@ -527,14 +528,14 @@ TEST(Limits, ThrustBelowTheDriveIsFeasibleAndExact) {
 
 TEST(Limits, NoToolDeepEnoughIsNamed) {
   auto d = grooved();
-  d["outer"][2]["diameter_mm"] = 5;  // 12.5 mm deep
+  d["outer"][2]["diameter_mm"] = 5;  // 12.4 mm below the crests beside it
   PlanRequest request = part(d);
   std::erase_if(request.fixed_tools,
                 [](const auto& t) { return t.id == "GROOVE-EXT-DEEP"; });
   const auto r = plan(prepare(std::move(request)));
   ASSERT_EQ(r.status, PlanStatus::infeasible);
   EXPECT_EQ(r.conflicts[0].limit, "groove g1");
-  EXPECT_NE(r.conflicts[0].sentence.find("reaches 12.5 mm deep"), std::string::npos);
+  EXPECT_NE(r.conflicts[0].sentence.find("reaches 12.4"), std::string::npos);
 }
 
 TEST(Parting, LeavesItsAllowanceToTheFace) {
