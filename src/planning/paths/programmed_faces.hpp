@@ -33,9 +33,8 @@ double end_moved_mm(const MovedFaces& moved, const part::Drawing& drawing,
 double off_middle_mm(const part::Drawing& drawing, const part::Tolerance& length);
 
 /// Distances [mm] of the radii at which programs turn elements, by their ids, from the drawn
-/// ones: to the middles of the limits of their sizes and of the crests of threads.  Elements
-/// that are not in it are turned as drawn, and so are those with a groove or arc, which is cut
-/// into a blank.
+/// ones: to the middles of the limits of their sizes, of the crests of threads and of the
+/// blanks of grooves.  Elements that are not in it are turned as drawn, arcs' blanks too.
 std::unordered_map<std::string_view, double> to_middles_mm(const part::Drawing& drawing);
 /// The limits in whose middle programs turn an element; none of one turned as drawn.
 const part::Limits* turned_to_limits(const part::Drawing& drawing,
